@@ -1,0 +1,189 @@
+#include "arcsim/mesh/topology.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <unordered_map>
+
+#include "arcsim/base/error.hpp"
+
+namespace arcsim {
+namespace {
+
+struct HalfEdge {
+    int from, to, face, corner;   // corner: opposite the half-edge
+};
+
+std::uint64_t key(int a, int b) {
+    const auto lo = static_cast<std::uint64_t>(std::min(a, b)), hi = static_cast<std::uint64_t>(std::max(a, b));
+    return lo << 32 | hi;
+}
+
+/// Half-edges grouped by undirected edge, groups in the order in which the faces first name them.
+std::vector<std::vector<HalfEdge>> group_half_edges(const Surface& s) {
+    std::vector<std::vector<HalfEdge>> groups;
+    std::unordered_map<std::uint64_t, int> index;
+    index.reserve(s.faces.size() * 2);
+    for (int f = 0; f < s.n_faces(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const int a = s.faces[f][(k + 1) % 3], b = s.faces[f][(k + 2) % 3];
+            const auto [it, is_new] = index.emplace(key(a, b), static_cast<int>(groups.size()));
+            if (is_new) groups.emplace_back();
+            groups[it->second].push_back({a, b, f, k});
+        }
+    return groups;
+}
+
+/// The faces of `node` as one counter-clockwise fan; shorter than `around` when there are several fans.
+std::vector<int> order_fan(const Surface& s, const Topology& t, int node, const std::vector<int>& around) {
+    const auto corner_of = [&](int f) {
+        return static_cast<int>(std::find(s.faces[f].begin(), s.faces[f].end(), node) - s.faces[f].begin());
+    };
+    // Going counter-clockwise leaves a face over the edge opposite its next corner.
+    int start = around.front();
+    for (std::size_t i = 0; i < around.size(); ++i) {   // walk clockwise to the boundary, if there is one
+        const int back = t.neighbour(start, (corner_of(start) + 2) % 3);
+        if (back < 0) break;
+        start = back;
+    }
+    std::vector<int> fan;
+    for (int f = start; f >= 0 && fan.size() < around.size();) {
+        fan.push_back(f);
+        f = t.neighbour(f, (corner_of(f) + 1) % 3);
+        if (f == start) break;
+    }
+    return fan;
+}
+
+std::string edge_name(const std::array<int, 2>& e) {
+    return "edge " + std::to_string(e[0] + 1) + "-" + std::to_string(e[1] + 1);
+}
+
+Topology connect(const Surface& s, const std::vector<std::vector<HalfEdge>>& groups) {
+    Topology t;
+    t.face_edges.resize(s.faces.size());
+    t.edges.reserve(groups.size());
+    t.boundary_node.assign(s.x.size(), 0);
+    for (const auto& group : groups) {
+        Edge e{{group[0].from, group[0].to}, {group[0].face, -1}, {group[0].corner, -1}};
+        if (group.size() > 1) {
+            e.face[1] = group[1].face;
+            e.corner[1] = group[1].corner;
+        } else {
+            t.boundary_node[group[0].from] = t.boundary_node[group[0].to] = 1;
+        }
+        for (const HalfEdge& h : group) t.face_edges[h.face][h.corner] = static_cast<int>(t.edges.size());
+        t.edges.push_back(e);
+    }
+    return t;
+}
+
+void find_components(const Surface& s, Topology& t) {
+    t.component.assign(s.x.size(), -1);
+    for (int seed = 0; seed < s.n_nodes(); ++seed) {
+        if (t.component[seed] >= 0 || t.node_faces[seed].empty()) continue;
+        std::vector<int> stack{seed};
+        t.component[seed] = t.n_components;
+        while (!stack.empty()) {
+            const int v = stack.back();
+            stack.pop_back();
+            for (int f : t.node_faces[v])
+                for (int w : s.faces[f])
+                    if (t.component[w] < 0) {
+                        t.component[w] = t.n_components;
+                        stack.push_back(w);
+                    }
+        }
+        ++t.n_components;
+    }
+}
+
+void find_boundary_loops(Topology& t) {
+    std::unordered_map<int, int> next;
+    std::vector<int> starts;
+    for (const Edge& e : t.edges)
+        if (e.is_boundary()) {
+            next[e.node[0]] = e.node[1];
+            starts.push_back(e.node[0]);
+        }
+    std::unordered_map<int, bool> seen;
+    for (int start : starts) {
+        if (seen[start]) continue;
+        std::vector<int> loop;
+        for (int v = start; !seen[v]; v = next.at(v)) {
+            seen[v] = true;
+            loop.push_back(v);
+        }
+        t.boundary_loops.push_back(std::move(loop));
+    }
+}
+
+}  // namespace
+
+int Topology::euler_characteristic() const {
+    const auto used = std::count_if(component.begin(), component.end(), [](int c) { return c >= 0; });
+    return static_cast<int>(used) - static_cast<int>(edges.size()) + static_cast<int>(face_edges.size());
+}
+
+TopologyDefects find_defects(const Surface& s) {
+    TopologyDefects d;
+    for (int f = 0; f < s.n_faces(); ++f) {
+        const Triangle& t = s.faces[f];
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) d.repeated_corner_faces.push_back(f);
+    }
+    std::vector<std::vector<int>> around(s.x.size());
+    for (int f = 0; f < s.n_faces(); ++f)
+        for (int v : s.faces[f]) around[v].push_back(f);
+    for (int v = 0; v < s.n_nodes(); ++v)
+        if (around[v].empty()) d.isolated_nodes.push_back(v);
+    if (!d.repeated_corner_faces.empty()) return d;
+
+    const auto groups = group_half_edges(s);
+    for (const auto& g : groups) {
+        const std::array<int, 2> e{g[0].from, g[0].to};
+        if (g.size() > 2)
+            d.nonmanifold_edges.push_back(e);
+        else if (g.size() == 2 && g[0].from == g[1].from)
+            d.misoriented_edges.push_back(e);
+    }
+    if (!d.nonmanifold_edges.empty() || !d.misoriented_edges.empty()) return d;
+
+    const Topology t = connect(s, groups);
+    for (int v = 0; v < s.n_nodes(); ++v)
+        if (!around[v].empty() && order_fan(s, t, v, around[v]).size() < around[v].size())
+            d.nonmanifold_nodes.push_back(v);
+    return d;
+}
+
+Topology build_topology(const Surface& s, const std::string& source_name) {
+    const TopologyDefects d = find_defects(s);
+    const auto fail = [&](const std::string& what) { throw InputError(source_name + ": " + what); };
+    if (!d.repeated_corner_faces.empty())
+        fail("face " + std::to_string(d.repeated_corner_faces[0] + 1) +
+             " names the same node twice. Delete the face.");
+    if (!d.nonmanifold_edges.empty())
+        fail(edge_name(d.nonmanifold_edges[0]) + " belongs to three or more faces (" +
+             std::to_string(d.nonmanifold_edges.size()) +
+             " such edges). A bag's surface needs one or two faces at every edge: delete inner walls or doubled faces.");
+    if (!d.misoriented_edges.empty())
+        fail("the two faces at " + edge_name(d.misoriented_edges[0]) + " are oriented against each other (" +
+             std::to_string(d.misoriented_edges.size()) +
+             " such edges). Unify the normals in your modeller.");
+    if (!d.nonmanifold_nodes.empty())
+        fail("node " + std::to_string(d.nonmanifold_nodes[0] + 1) +
+             " joins parts of the surface that share no edge there (" +
+             std::to_string(d.nonmanifold_nodes.size()) + " such nodes). Split the node.");
+
+    Topology t = connect(s, group_half_edges(s));
+    std::vector<std::vector<int>> around(s.x.size());
+    for (int f = 0; f < s.n_faces(); ++f)
+        for (int v : s.faces[f]) around[v].push_back(f);
+    t.node_faces.resize(s.x.size());
+    for (int v = 0; v < s.n_nodes(); ++v)
+        if (!around[v].empty()) t.node_faces[v] = order_fan(s, t, v, around[v]);
+    find_components(s, t);
+    find_boundary_loops(t);
+    return t;
+}
+
+}  // namespace arcsim
