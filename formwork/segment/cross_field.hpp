@@ -5,25 +5,17 @@
 
 #include "arcsim/mesh/surface.hpp"
 #include "arcsim/mesh/topology.hpp"
+#include "formwork/segment/direction_data.hpp"
 
 namespace formwork {
-
-using arcsim::Surface;
-using arcsim::Topology;
-
-/// What the strain says about one face: a direction that the weave should follow, and how much it matters.
-struct DirectionData {
-    double theta = 0;    // angle of the first principal direction from edge v0->v1, ccw about the normal, rad
-    double s1 = 1, s2 = 1;   // principal stretches along theta and across it
-    double weight = 0;   // 0: no preference; 1: fully anisotropic
-};
 
 /// A direction on every face, known up to quarter turns.
 struct CrossField {
     std::vector<double> theta;    // per face: one arm's angle from edge v0->v1, rad
-    std::vector<int> period;      // per edge: quarter turns between the arms of face[0] and face[1]; 0 on the boundary
+    std::vector<int> period;      // per edge: quarter turns p of (12) between the arms of face[0] and face[1]; 0 on the boundary
     double smoothness_energy = 0; // sum over inner edges of (theta_i - theta_j + kappa_ij + pi/2 p_ij)²   (12)
     double alignment_energy = 0;  // sum over faces of w_f d(theta_f, data_f)², d modulo pi/2
+    double energy = 0;            // (12): smoothness + sum of alpha_f w_f d²
     double deviation_deg = 0;     // weighted mean of |d|, degrees
 };
 
@@ -34,5 +26,56 @@ struct Singularity {
     int index4 = 0;   // four times the index
     int valence() const { return 4 - index4; }
 };
+
+/// A face whose direction is given: rim, crease or stroke.
+struct HardDirection {
+    int face = 0;
+    double theta = 0;   // rad, from edge v0->v1; known up to quarter turns
+};
+
+/// Energy (12) and how its minimum is looked for.
+struct FieldParams {
+    double alpha = 0.1;            // weight of the data against the smoothness, unit face measure
+    double smoothing_length = 0;   // m; > 0 replaces alpha: alpha_f = A_f / (sqrt(3) l²), independent of the resolution
+    int effort = 1;                // 0: one start, no search; 1: all starts, search from the best; 2: search from all
+    bool fill_isotropic = false;   // second pass: faces that hardly prefer a direction follow their neighbours only
+    std::vector<HardDirection> hard;
+};
+
+template <class Archive>
+void visit(Archive& a, FieldParams& p) {
+    a.optional("alpha", p.alpha, "1", "weight of the strain directions against smoothness in (12), unit face measure");
+    a.optional("smoothing_length", p.smoothing_length, "m",
+               "length over which noise is smoothed, independent of the resolution; 0: alpha counts");
+}
+
+/// The smoothest cross field that still follows the data: a minimum of (12),
+///
+///   E = sum_e (theta_i - theta_j + kappa_ij + pi/2 p_ij)² + sum_f alpha_f w_f d(theta_f, data_f)²
+///
+/// over angles and periods. Without any data or hard direction the smoothest field of all is returned.
+/// The result is the same on every machine and for every number of threads.
+/// @param data   one per face; weight 0 where the strain says nothing
+/// @throws InputError   data of the wrong length, a hard direction of a face that does not exist
+/// @throws NumericalError   the factorisation failed (degenerate faces)
+CrossField smooth_cross_field(const Surface& s, const Topology& t, const std::vector<DirectionData>& data,
+                              const FieldParams& params);
+
+/// The field that has these angles, with the period on every edge nearest to its neighbours' (principal
+/// matching), and its energies. Also the evaluator for a field from elsewhere.
+CrossField match_cross_field(const Surface& s, const Topology& t, const std::vector<double>& theta,
+                             const std::vector<DirectionData>& data, const FieldParams& params);
+
+/// Inner nodes with an index other than 0, in the order of their numbers. Closed surface: the indices sum
+/// to the Euler characteristic. With a boundary: they and boundary_turning4() do.
+/// Asserted: index sum + boundary turning = Euler characteristic.
+std::vector<Singularity> find_singularities(const Surface& s, const Topology& t, const CrossField& field);
+
+/// Four times the turning of the boundary against the field, a whole number per loop of
+/// Topology::boundary_loops: by how many quarter turns more the tangent turns than the field does.
+std::vector<int> loop_turning4(const Surface& s, const Topology& t, const CrossField& field);
+
+/// Sum of loop_turning4 over all loops; 0 on a closed surface.
+int boundary_turning4(const Surface& s, const Topology& t, const CrossField& field);
 
 }  // namespace formwork
