@@ -1,0 +1,13 @@
+#pragma once
+
+#include <memory>
+
+#include "arcsim/solve/linear_solver.hpp"
+
+namespace arcsim {
+
+std::unique_ptr<LinearSolver> make_cholmod();
+std::unique_ptr<LinearSolver> make_umfpack();
+std::unique_ptr<LinearSolver> make_eigen_ldlt();
+
+}  // namespace arcsim
