@@ -19,8 +19,9 @@ ARCSIM = {
 NUMERIC = ["arcsim/base", "arcsim/mesh", "arcsim/material"]       # never forces or solvers
 FORMWORK = {
     "formwork/strain": NUMERIC,
-    "formwork/segment": NUMERIC + ["formwork/strain"],
-    "formwork/panels": NUMERIC + ["formwork/strain", "formwork/segment"],
+    "formwork/flatten": NUMERIC,
+    "formwork/segment": NUMERIC + ["formwork/strain", "formwork/flatten"],
+    "formwork/panels": NUMERIC + ["formwork/strain", "formwork/flatten", "formwork/segment"],
     "formwork/mesher": NUMERIC,
     "formwork/load": [*ARCSIM],
     "formwork/fabric": [*ARCSIM, "formwork/strain"],

@@ -1,0 +1,187 @@
+#include "formwork/flatten/isometry_energy.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace formwork {
+namespace {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix46d = Eigen::Matrix<double, 4, 6>;
+
+/// vec(F) = B du with F = [u1-u0, u2-u0] D⁻¹, columns of F stacked.
+Matrix46d strain_map(const Matrix2d& d) {
+    Matrix46d b = Matrix46d::Zero();
+    for (int column = 0; column < 2; ++column)
+        for (int axis = 0; axis < 2; ++axis) {
+            b(2 * column + axis, 2 + axis) = d(0, column);
+            b(2 * column + axis, 4 + axis) = d(1, column);
+            b(2 * column + axis, axis) = -d(0, column) - d(1, column);
+        }
+    return b;
+}
+
+int local_dof(const Triangle& t, int k) { return 2 * t[k / 2] + k % 2; }
+
+/// Singular values with the sign of the determinant on the second one, F = U diag(s) Vᵀ, U and V rotations.
+struct SignedSvd {
+    Matrix2d u, v;
+    double s1, s2;
+};
+
+SignedSvd signed_svd(const Matrix2d& f) {
+    const double e = (f(0, 0) + f(1, 1)) / 2, g = (f(0, 0) - f(1, 1)) / 2;
+    const double h = (f(1, 0) + f(0, 1)) / 2, k = (f(1, 0) - f(0, 1)) / 2;
+    const double q = std::hypot(e, k), r = std::hypot(g, h);
+    const double a1 = std::atan2(h, g), a2 = std::atan2(k, e);
+    const double theta = (a2 - a1) / 2, phi = (a2 + a1) / 2;
+    SignedSvd svd;
+    svd.u << std::cos(phi), -std::sin(phi), std::sin(phi), std::cos(phi);
+    svd.v << std::cos(theta), std::sin(theta), -std::sin(theta), std::cos(theta);
+    svd.s1 = q + r;
+    svd.s2 = q - r;
+    return svd;
+}
+
+Eigen::Vector4d stacked(const Matrix2d& m) { return {m(0, 0), m(1, 0), m(0, 1), m(1, 1)}; }
+
+double slope(double s) { return 2 * s - 2 / (s * s * s); }        // of s² + 1/s²
+double curvature(double s) { return 2 + 6 / (s * s * s * s); }
+
+}  // namespace
+
+IsometryEnergy::IsometryEnergy(const std::vector<Triangle>& faces, const std::vector<Matrix2d>& shapes, int n)
+    : faces_(faces), pattern_(2 * n, 2 * n) {
+    double total = 0;
+    for (const Matrix2d& d : shapes) {
+        inverse_.push_back(d.inverse());
+        weight_.push_back(d.determinant() / 2);
+        total += weight_.back();
+    }
+    for (double& w : weight_) w /= total;
+
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const Triangle& t : faces_)
+        for (int a = 0; a < 6; ++a)
+            for (int b = 0; b < 6; ++b)
+                if (local_dof(t, a) >= local_dof(t, b)) entries.emplace_back(local_dof(t, a), local_dof(t, b), 0.0);
+    for (int i = 0; i < 2 * n; ++i) entries.emplace_back(i, i, 0.0);
+    pattern_.setFromTriplets(entries.begin(), entries.end());
+    pattern_.makeCompressed();
+
+    const auto find = [&](int row, int column) {
+        const int* begin = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[column];
+        const int* end = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[column + 1];
+        return static_cast<int>(std::lower_bound(begin, end, row) - pattern_.innerIndexPtr());
+    };
+    for (const Triangle& t : faces_) {
+        std::array<int, 21> slots;
+        int next = 0;
+        for (int a = 0; a < 6; ++a)
+            for (int b = 0; b <= a; ++b)
+                slots[next++] = find(std::max(local_dof(t, a), local_dof(t, b)), std::min(local_dof(t, a), local_dof(t, b)));
+        slot_.push_back(slots);
+    }
+    for (int i = 0; i < 2 * n; ++i) diagonal_.push_back(find(i, i));
+
+    double sum = 0;   // at an isometry the Hessian per face is close to 8 A BᵀB
+    for (std::size_t f = 0; f < faces_.size(); ++f) sum += 8 * weight_[f] * strain_map(inverse_[f]).squaredNorm();
+    diagonal_scale_ = sum / (2 * n);
+}
+
+Matrix2d IsometryEnergy::deformation(const VectorXd& u, int f) const {
+    const Triangle& t = faces_[f];
+    Matrix2d edges;
+    edges.col(0) = u.segment<2>(2 * t[1]) - u.segment<2>(2 * t[0]);
+    edges.col(1) = u.segment<2>(2 * t[2]) - u.segment<2>(2 * t[0]);
+    return edges * inverse_[f];
+}
+
+double IsometryEnergy::value(const VectorXd& u) const {
+    double sum = 0;
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+        const Matrix2d F = deformation(u, static_cast<int>(f));
+        const double det = F.determinant(), norm2 = F.squaredNorm();
+        if (!(det > 0)) return std::numeric_limits<double>::infinity();
+        sum += weight_[f] * (norm2 + norm2 / (det * det) - 4);
+    }
+    return sum;
+}
+
+double IsometryEnergy::assemble(const VectorXd& u, double shift, VectorXd& gradient,
+                                Eigen::SparseMatrix<double>& hessian) const {
+    if (hessian.nonZeros() != pattern_.nonZeros()) hessian = pattern_;
+    double* values = hessian.valuePtr();
+    std::fill(values, values + hessian.nonZeros(), 0.0);
+    for (int slot : diagonal_) values[slot] = shift;
+    gradient = VectorXd::Zero(u.size());
+    double sum = 0;
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+        const Triangle& t = faces_[f];
+        const SignedSvd d = signed_svd(deformation(u, static_cast<int>(f)));
+        sum += weight_[f] * (d.s1 * d.s1 + d.s2 * d.s2 + 1 / (d.s1 * d.s1) + 1 / (d.s2 * d.s2) - 4);
+        const Matrix46d b = strain_map(inverse_[f]);
+
+        // Eigenmatrices of the energy in the frame of the singular vectors.
+        const Vector2d one(1, 0), two(0, 1);
+        const Matrix2d first = d.u * (one * one.transpose()) * d.v.transpose();
+        const Matrix2d second = d.u * (two * two.transpose()) * d.v.transpose();
+        const Matrix2d twist = d.u * (two * one.transpose() - one * two.transpose()) * d.v.transpose() * std::sqrt(0.5);
+        const Matrix2d flip = d.u * (two * one.transpose() + one * two.transpose()) * d.v.transpose() * std::sqrt(0.5);
+        const double g1 = slope(d.s1), g2 = slope(d.s2);
+        const double twist_value = std::max(0.0, (g1 + g2) / (d.s1 + d.s2));
+        const double p = d.s1 * d.s2;   // (g1 - g2) / (s1 - s2) without the cancellation
+        const double flip_value = 2 + 2 * (d.s1 * d.s1 + p + d.s2 * d.s2) / (p * p * p);
+
+        const Vector6d gradient_f = weight_[f] * b.transpose() * (g1 * stacked(first) + g2 * stacked(second));
+        Eigen::Matrix<double, 6, 6> h = Eigen::Matrix<double, 6, 6>::Zero();
+        const auto add = [&](double value, const Matrix2d& mode) {
+            const Vector6d m = b.transpose() * stacked(mode);
+            h.noalias() += weight_[f] * value * m * m.transpose();
+        };
+        add(curvature(d.s1), first);
+        add(curvature(d.s2), second);
+        add(twist_value, twist);
+        add(flip_value, flip);
+
+        for (int k = 0; k < 6; ++k) gradient[local_dof(t, k)] += gradient_f[k];
+        int next = 0;
+        for (int i = 0; i < 6; ++i)
+            for (int j = 0; j <= i; ++j) values[slot_[f][next++]] += h(i, j);
+    }
+    return sum;
+}
+
+double IsometryEnergy::largest_step(const VectorXd& u, const VectorXd& du) const {
+    double largest = std::numeric_limits<double>::infinity();
+    for (const Triangle& t : faces_) {
+        const Eigen::Vector2d a = u.segment<2>(2 * t[1]) - u.segment<2>(2 * t[0]);
+        const Eigen::Vector2d b = u.segment<2>(2 * t[2]) - u.segment<2>(2 * t[0]);
+        const Eigen::Vector2d da = du.segment<2>(2 * t[1]) - du.segment<2>(2 * t[0]);
+        const Eigen::Vector2d db = du.segment<2>(2 * t[2]) - du.segment<2>(2 * t[0]);
+        const auto cross = [](const Eigen::Vector2d& p, const Eigen::Vector2d& q) { return p.x() * q.y() - p.y() * q.x(); };
+        // The doubled area along the step: c0 + c1 t + c2 t², c0 > 0; the smallest positive root counts.
+        const double c0 = cross(a, b), c1 = cross(a, db) + cross(da, b), c2 = cross(da, db);
+        const double discriminant = c1 * c1 - 4 * c2 * c0;
+        if (discriminant < 0) continue;
+        const double q = -0.5 * (c1 + std::copysign(std::sqrt(discriminant), c1));
+        for (double root : {q != 0 ? c0 / q : -1.0, c2 != 0 ? q / c2 : -1.0})
+            if (root > 0) largest = std::min(largest, root);
+    }
+    return std::min(1.0, 0.9 * largest);
+}
+
+double IsometryEnergy::best_scale(const VectorXd& u) const {
+    double a = 0, b = 0;
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+        const Matrix2d F = deformation(u, static_cast<int>(f));
+        const double det = F.determinant(), norm2 = F.squaredNorm();
+        a += weight_[f] * norm2;
+        b += weight_[f] * norm2 / (det * det);
+    }
+    return std::pow(b / a, 0.25);
+}
+
+}  // namespace formwork
