@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "formwork/segment/field_problem.hpp"
+#include "formwork/segment/period_search.hpp"
 
 namespace formwork {
 namespace {
@@ -52,11 +53,16 @@ CrossField smooth_cross_field(const Surface& s, const Topology& t, const std::ve
     const PowerField power(problem, ordering);
     const AngleSystem angles(problem, ordering);
     const std::vector<Complex> start = power.linear();
+    PeriodSearch search(s, t, angles, params.singularity_price);
     FieldState best;
+    double best_cost = 0;
     for (const double tau : {10.0, 250.0}) {
         FieldState state = match_periods(problem, angles_of(power.diffuse(start, tau, 60)));
-        angles.alternate(state);
-        if (best.theta.empty() || state.energy < best.energy) best = std::move(state);
+        search.descend(state);
+        const double cost = search.cost(state);
+        if (!best.theta.empty() && cost >= best_cost) continue;
+        best_cost = cost;
+        best = std::move(state);
     }
     return finish(problem, t, data, best);
 }

@@ -37,6 +37,7 @@ struct HardDirection {
 struct FieldParams {
     double alpha = 0.1;            // weight of the data against the smoothness, unit face measure
     double smoothing_length = 0;   // m; > 0 replaces alpha: alpha_f = A_f / (sqrt(3) l²), independent of the resolution
+    double singularity_price = 0.1;   // rad² per quarter of singular index: pairs that the data hardly need are cancelled
     int effort = 1;                // 0: one start, no search; 1: all starts, search from the best; 2: search from all
     bool fill_isotropic = false;   // second pass: faces that hardly prefer a direction follow their neighbours only
     std::vector<HardDirection> hard;
@@ -47,6 +48,8 @@ void visit(Archive& a, FieldParams& p) {
     a.optional("alpha", p.alpha, "1", "weight of the strain directions against smoothness in (12), unit face measure");
     a.optional("smoothing_length", p.smoothing_length, "m",
                "length over which noise is smoothed, independent of the resolution; 0: alpha counts");
+    a.optional("singularity_price", p.singularity_price, "rad²",
+               "what a quarter of singular index costs beside (12): pairs that the data hardly need are cancelled");
 }
 
 /// The smoothest cross field that still follows the data: a minimum of (12),
