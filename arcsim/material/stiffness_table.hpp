@@ -73,9 +73,10 @@ private:
 
 inline StiffnessTable::Cell StiffnessTable::locate(const Vector3d& G) {
     // Just below the last point, as ArcSim, so that the cell to the right of it is never asked for.
-    constexpr double last = n - 1 - 1e-5;
-    const Vector3d g((G[0] - grid_min) * n, (G[1] - grid_min) * n, std::abs(G[2]) * n);
-    const Vector3d c = g.cwiseMax(0.0).cwiseMin(last);
+    static constexpr double last = n - 1 - 1e-5;
+    // The order of the arguments of max sends NaN to 0, so that a failed state stays inside the table.
+    const auto inside = [](double g) { return std::min(std::max(0.0, g), last); };
+    const Vector3d c(inside((G[0] - grid_min) * n), inside((G[1] - grid_min) * n), inside(std::abs(G[2]) * n));
     const int i = static_cast<int>(c[0]), j = static_cast<int>(c[1]), k = static_cast<int>(c[2]);
     return {(i * n + j) * n + k, {c[0] - i, c[1] - j, c[2] - k}};
 }
