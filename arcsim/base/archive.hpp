@@ -49,6 +49,8 @@
 /// that names file:line:column, JSON pointer, what was read, what is allowed, and the doc sentence.
 namespace arcsim {
 
+struct JsonValue;
+
 /// Allowed numbers: an interval, each end open or closed.
 struct Range {
     double min = -std::numeric_limits<double>::infinity();
@@ -171,6 +173,8 @@ public:
 
     /// A direction in space, made a unit vector: [x, y, z] or "x", "y", "z", "-x", "-y", "-z".
     virtual void direction(const char* key, Vector3d& v, const char* doc) = 0;
+    /// A part of the file as it stands, for formats that no visit describes; a JsonNode reads it afterwards.
+    virtual void raw(const char*, JsonValue&, const char*) {}
     /// Of these optional keys exactly one must be given.
     virtual void exactly_one_of(std::initializer_list<const char*> keys) = 0;
     /// A relation between values; `remedy` is the sentence shown at `key` when it does not hold.

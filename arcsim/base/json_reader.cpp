@@ -161,6 +161,10 @@ void ParamsReader::direction(const char* key, Vector3d& v, const char* doc) {
                node->shown() + ". " + doc);
 }
 
+void ParamsReader::raw(const char* key, JsonValue& v, const char* doc) {
+    if (const auto node = get({key, "", doc, any_number, false})) v = node->value();
+}
+
 void ParamsReader::exactly_one_of(std::initializer_list<const char*> keys) {
     const JsonNode& node = levels_.back().node;
     int n = 0;

@@ -57,6 +57,7 @@ public:
     void finish();   // unknown keys of the outermost object; @throws InputError
 
     void direction(const char* key, Vector3d& v, const char* doc) override;
+    void raw(const char* key, JsonValue& v, const char* doc) override;
     void exactly_one_of(std::initializer_list<const char*> keys) override;
     void check(bool ok, const char* key, const std::string& remedy) override;
     void ignored(const char* key, const char* why) override;

@@ -68,6 +68,12 @@ void ParamsSchema::add(const Field& f, JsonValue schema, JsonValue default_value
     }
 }
 
+void ParamsSchema::raw(const char* key, JsonValue&, const char* doc) {
+    JsonValue none;
+    none.kind = JsonKind::absent;
+    add({key, "", doc, any_number, false}, JsonValue::object(), none);
+}
+
 void ParamsSchema::value(const Field& f, bool& v) { add(f, type_schema("boolean"), v); }
 void ParamsSchema::value(const Field& f, int& v) { add(f, number_schema("integer", f.range), v); }
 void ParamsSchema::value(const Field& f, double& v) { add(f, number_schema("number", f.range), v); }

@@ -15,6 +15,7 @@ public:
     JsonValue take() { return std::move(levels_.front().schema); }
 
     void direction(const char* key, Vector3d& v, const char* doc) override;
+    void raw(const char* key, JsonValue&, const char* doc) override;
     void exactly_one_of(std::initializer_list<const char*> keys) override;
     void check(bool, const char*, const std::string&) override {}
     void ignored(const char* key, const char* why) override;

@@ -17,6 +17,7 @@ public:
     JsonValue take() { return std::move(levels_.front()); }
 
     void direction(const char* key, Vector3d& v, const char* doc) override;
+    void raw(const char* key, JsonValue& v, const char*) override { levels_.back().set(key, v); }
     void exactly_one_of(std::initializer_list<const char*> keys) override;
     void check(bool, const char*, const std::string&) override {}
     void ignored(const char*, const char*) override {}

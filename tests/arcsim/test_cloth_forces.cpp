@@ -1,0 +1,106 @@
+#include "arcsim/force/bend_force.hpp"
+#include "arcsim/force/stretch_force.hpp"
+#include "tests/arcsim/cloth_fixture.hpp"
+#include "tests/check_derivatives.hpp"
+
+using namespace arcsim;
+
+TEST_CASE("the stretch force's tangents pass the derivative check in every state") {
+    for (const Sampling sampling : {Sampling::exact, Sampling::arcsim}) {
+        const Patch patch;
+        StretchForce force(patch.stretch_faces(0), {std::make_shared<StiffnessTable>(woven_rows(), sampling)});
+        for (const auto& [name, state] : patch.states()) {
+            // The tolerance leaves room for the kink of k at rest, which differences straddle.
+            INFO(name << " sampling " << (sampling == Sampling::exact ? "exact" : "arcsim"));
+            check_derivatives(force, state, patch.faces, {.step = 1e-8, .tolerance = 1e-4});
+            check_invariants(force, state);
+        }
+    }
+}
+
+TEST_CASE("with its table held, the stretch force is the gradient of the frozen energy") {
+    // A constant table: freezing changes nothing.
+    const Patch patch;
+    StretchForce force(patch.stretch_faces(0), {std::make_shared<StiffnessTable>(constant_rows(), Sampling::arcsim)});
+    for (const auto& [name, state] : patch.states()) {
+        VectorXd g = VectorXd::Zero(state.x.size()), difference(state.x.size());
+        force.add_gradient(state, g);
+        for (int d = 0; d < state.x.size(); ++d) {
+            State up = state, down = state;
+            up.x[d] += 1e-7;
+            down.x[d] -= 1e-7;
+            difference[d] = (force.frozen_energy(up) - force.frozen_energy(down)) / 2e-7;
+        }
+        INFO(name);
+        CHECK((g - difference).cwiseAbs().maxCoeff() <= 1e-6 * (1 + g.cwiseAbs().maxCoeff()));
+    }
+}
+
+TEST_CASE("there is no membrane force at rest and no bending moment in a flat sheet") {
+    const Patch patch;
+    const State rest = patch.states().at("rest");
+    StretchForce stretch(patch.stretch_faces(0), {std::make_shared<StiffnessTable>(woven_rows(), Sampling::arcsim)});
+    BendForce bend(patch.hinges(0), {BendingTable(bending_rows())}, rest.x);
+    VectorXd g = VectorXd::Zero(rest.x.size());
+    stretch.add_gradient(rest, g);
+    CHECK(g.cwiseAbs().maxCoeff() <= 1e-9);
+    bend.add_gradient(rest, g);
+    CHECK(g.cwiseAbs().maxCoeff() <= 1e-9);
+}
+
+TEST_CASE("the bending force's tangents pass the derivative check in every state") {
+    const Patch patch;
+    for (const auto& [name, state] : patch.states()) {
+        BendForce force(patch.hinges(0), {BendingTable(bending_rows())}, state.x);
+        INFO(name);
+        check_derivatives(force, state, patch.faces, {.step = 1e-7, .tolerance = 1e-5});
+        check_invariants(force, state);
+    }
+}
+
+TEST_CASE("theta is positive when the sheet folds towards the side of its normals") {
+    // Normals point to +z; both wings bend up.
+    const Hinge hinge{{0, 1, 2, 3}, 1, 1, 0, 0, 1, {}, {}};
+    VectorXd x(12);
+    x << 0, 0, 0, 0, 1, 0, -1, 0.5, 0.3, 1, 0.5, 0.3;   // side 0 runs 0, 1, 2: counter-clockwise
+    BendForce force({hinge}, {BendingTable(bending_rows())}, x);
+    CHECK(force.lagged_angles()[0] == Approx(2 * std::atan(0.3)));
+    x[8] = x[11] = -0.3;
+    force.refresh(x);
+    CHECK(force.lagged_angles()[0] == Approx(-2 * std::atan(0.3)));
+}
+
+TEST_CASE("damping and the step's matrix are the definite tangent times h (h + beta)") {
+    const Patch patch;
+    const State state = patch.states().at("stretched");
+    const double beta = 0.03, h = 0.01;
+    StretchForce stretch(patch.stretch_faces(beta), {std::make_shared<StiffnessTable>(woven_rows(), Sampling::arcsim)});
+    BendForce bend(patch.hinges(beta), {BendingTable(bending_rows())}, state.x);
+    for (ClothForce* force : {static_cast<ClothForce*>(&stretch), static_cast<ClothForce*>(&bend)}) {
+        std::vector<std::array<int, 2>> pairs;
+        force->list_pairs(pairs);
+        const BlockPattern pattern(static_cast<int>(state.x.size()) / 3, patch.faces, pairs);
+        force->bind(pattern);
+        BlockMatrix A(pattern), H(pattern), D(pattern);
+        VectorXd f = VectorXd::Zero(state.x.size()), g = f;
+        force->add_step(state, h, f, A);
+        force->add_gradient_and_hessian(state, Tangent::definite, g, H);
+        force->add_damping(state, D);
+        CHECK((f + g).norm() <= 1e-12 * g.norm());
+        CHECK((A.dense() - h * (h + beta) * H.dense()).norm() <= 1e-12 * A.dense().norm());
+        CHECK((D.dense() - beta * H.dense()).norm() <= 1e-12 * D.dense().norm());
+    }
+}
+
+TEST_CASE("the derivative checker notices a wrong tangent", "[!shouldfail]") {
+    struct Wrong final : Force {
+        std::string_view name() const override { return "wrong"; }
+        std::optional<double> energy(const State& s) const override { return 0.5 * s.x.squaredNorm(); }
+        void add_gradient(const State& s, VectorXd& g) const override { g += s.x; }
+        void add_hessian(const State& s, Tangent, BlockMatrix& H) const override {
+            for (int i = 0; i < s.x.size() / 3; ++i) H.add_to_diagonal(i, 1.1);
+        }
+    } force;
+    const Patch patch;
+    check_derivatives(force, patch.states().at("rest"), patch.faces);
+}
