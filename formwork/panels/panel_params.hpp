@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "arcsim/base/archive.hpp"
+
+namespace formwork {
+
+enum class PanelSource { rest, inflated };
+inline constexpr std::array panel_source_names{
+    arcsim::EnumName{PanelSource::rest, "rest", "the rest surface is cut"},
+    arcsim::EnumName{PanelSource::inflated, "inflated", "the inflated surface is cut"}};
+
+enum class WarpAlong { largest_stretch, smallest_stretch };
+inline constexpr std::array warp_along_names{
+    arcsim::EnumName{WarpAlong::largest_stretch, "largest_stretch", "the stiffer thread carries the larger stretch"},
+    arcsim::EnumName{WarpAlong::smallest_stretch, "smallest_stretch", "warp across the larger stretch"}};
+
+enum class Corner { mitre, bevel };
+inline constexpr std::array corner_names{
+    arcsim::EnumName{Corner::mitre, "mitre", "allowances meet in a point, up to mitre_limit"},
+    arcsim::EnumName{Corner::bevel, "bevel", "the point is cut off"}};
+
+enum class Paper { a4, letter, a3, a0 };
+inline constexpr std::array paper_names{
+    arcsim::EnumName{Paper::a4, "A4", "210 x 297 mm, tiled"},
+    arcsim::EnumName{Paper::letter, "Letter", "215.9 x 279.4 mm, tiled"},
+    arcsim::EnumName{Paper::a3, "A3", "297 x 420 mm, tiled"},
+    arcsim::EnumName{Paper::a0, "A0", "plotter: one page as large as the pattern"}};
+
+/// An allowance that differs from the general one.
+struct SeamAllowance {
+    int seam = 1;              // as printed, 1-based; rims are numbered with the seams
+    double allowance_mm = 10;
+};
+template <class Archive>
+void visit(Archive& a, SeamAllowance& p) {
+    a.required("seam", p.seam, "1", arcsim::at_least(1), "Seam number as printed on the pattern, from 1.");
+    a.required("allowance_mm", p.allowance_mm, "mm", arcsim::between(0, 200), "Allowance of this seam on both of its pieces.");
+}
+
+/// How the cut surface becomes pieces of cloth. Fabrication is in millimetres, hence the names.
+struct PanelParams {
+    PanelSource from = PanelSource::rest;
+    double seam_allowance_mm = 10, hem_mm = 30;
+    std::vector<SeamAllowance> allowances;
+    Corner corners = Corner::mitre;
+    double mitre_limit = 2;
+    WarpAlong warp = WarpAlong::largest_stretch;
+    std::array<double, 2> compensation{0, 0};   // percent that a piece is cut smaller, along warp and weft
+    bool stretch_compensation = false;
+    double notch_spacing_mm = 100, notch_length_mm = 4;
+    double max_distortion = 0.3, max_seam_mismatch = 0.002;
+    double roll_width_mm = 1500, nest_gap_mm = 5;
+    bool quarter_turns = false;
+    Paper paper = Paper::a4;
+    int cut_count = 1;
+};
+
+template <class Archive>
+void visit(Archive& a, PanelParams& p) {
+    using arcsim::between;
+    a.choice("from", p.from, panel_source_names, "The surface that the panels are cut from.");
+    a.optional("seam_allowance_mm", p.seam_allowance_mm, "mm", between(0, 200), "Cloth outside the sew line.");
+    a.optional("hem_mm", p.hem_mm, "mm", between(0, 500), "Cloth outside the rim, folded in and stitched.");
+    a.list("allowances", p.allowances, "Seams whose allowance differs from the general one.");
+    a.choice("corners", p.corners, corner_names, "Shape of the allowance at corners.");
+    a.optional("mitre_limit", p.mitre_limit, "1", between(1, 10), "Longest mitre, in allowances; longer ones are bevelled.");
+    a.choice("warp", p.warp, warp_along_names, "Which principal stretch the warp follows.");
+    a.optional("compensation", p.compensation, "%", between(-20, 50),
+               "Shrinkage of the pieces along warp and weft, so that the tightened cloth has the designed size.");
+    a.optional("stretch_compensation", p.stretch_compensation,
+               "Cut every face smaller by its simulated stretch, so that the filled bag has the size of the surface that is cut.");
+    a.optional("notch_spacing_mm", p.notch_spacing_mm, "mm", between(10, 1000), "Largest distance between notches of a seam.");
+    a.optional("notch_length_mm", p.notch_length_mm, "mm", between(1, 20), "Depth of a notch from the cut edge.");
+    a.optional("max_distortion", p.max_distortion, "1", between(0, 10),
+               "A panel is refused when more than 5 % of its area would have to stretch or shrink by more than this.");
+    a.optional("max_seam_mismatch", p.max_seam_mismatch, "1", between(1e-6, 1),
+               "Largest relative difference of a seam's two sides, between any two notches.");
+    a.optional("roll_width_mm", p.roll_width_mm, "mm", between(50, 20000), "Usable width of the fabric roll.");
+    a.optional("nest_gap_mm", p.nest_gap_mm, "mm", between(0, 100), "Least distance between nested pieces.");
+    a.optional("quarter_turns", p.quarter_turns, "Pieces may also lie across the roll (fabrics without a preferred thread).");
+    a.choice("paper", p.paper, paper_names, "Paper of the printed pattern.");
+    a.optional("cut_count", p.cut_count, "1", between(1, 100), "How many bags are cut; printed on every piece, counted in the bill.");
+}
+
+}  // namespace formwork
