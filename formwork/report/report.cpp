@@ -1,0 +1,82 @@
+#include "formwork/report/report.hpp"
+
+#include <string_view>
+
+#include "formwork/report/embedded_files.hpp"
+#include "formwork/report/image.hpp"
+#include "formwork/report/report_data.hpp"
+
+namespace formwork {
+namespace {
+
+std::string escape_html(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else if (c == '>')
+            out += "&gt;";
+        else if (c == '"')
+            out += "&quot;";
+        else
+            out += c;
+    }
+    return out;
+}
+
+/// Within a script element nothing may look like the element's end: "</" is written "<\/", the same
+/// text to JSON.
+std::string escape_script_data(const std::string& json) {
+    std::string out;
+    out.reserve(json.size());
+    for (size_t i = 0; i < json.size(); ++i) {
+        const bool opens =
+            json[i] == '<' && i + 1 < json.size() && (json[i + 1] == '/' || json[i + 1] == '!');
+        if (opens)
+            out += "\\u003c";
+        else
+            out += json[i];
+    }
+    return out;
+}
+
+}  // namespace
+
+std::string compose_report(const ReportInput& input) {
+    const EmbeddedFiles files = embedded_files();
+    std::string scripts;
+    for (const std::string_view s : files.scripts) scripts.append(s);
+    const std::pair<std::string_view, std::string> parts[] = {
+        {"{{title}}", escape_html(input.title)},
+        {"{{style}}", std::string(files.style)},
+        {"{{data}}", escape_script_data(report_data(input))},
+        {"{{three_licence}}", std::string(files.three_licence)},
+        {"{{three}}", std::string(files.three)},
+        {"{{script}}", scripts},
+    };
+    std::string out;
+    for (std::string_view rest = files.page; !rest.empty();) {
+        const size_t open = rest.find("{{");
+        out.append(rest.substr(0, open));
+        if (open == std::string_view::npos) break;
+        rest.remove_prefix(open);
+        bool known = false;
+        for (const auto& [name, text] : parts)
+            if (rest.substr(0, name.size()) == name) {
+                out += text;
+                rest.remove_prefix(name.size());
+                known = true;
+                break;
+            }
+        if (!known) out += "{{", rest.remove_prefix(2);
+    }
+    return out;
+}
+
+void write_report(const ReportInput& input, const std::filesystem::path& path) {
+    write_file(path, compose_report(input));
+}
+
+}  // namespace formwork

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formwork/panels/flat_panel.hpp"
+#include "formwork/segment/segmentation.hpp"
+#include "formwork/strain/strain_field.hpp"
+
+namespace formwork {
+
+using arcsim::Vector3d;
+
+/// One line of the sewing order, as it is to be read at the machine.
+struct SewingStep {
+    std::string text;         // for example "panel 3 to panel 5, 242 mm"
+    std::vector<int> panels;  // 0-based; clicking the line shows them
+};
+
+/// The residual after each iteration of one solve, relative to the load.
+struct ConvergenceCurve {
+    std::string name;
+    std::vector<double> residual;
+};
+
+/// A picture made by this program, embedded as it is.
+struct ReportPicture {
+    std::string title, caption;
+    std::string png;  // the file's bytes (encode_png)
+};
+
+/// All that the report shows, as plain data. Whatever a run did not compute stays empty and is left
+/// out.
+struct ReportInput {
+    std::string title;         // the scene's name
+    std::string summary_json;  // text of summary.json
+    std::string scene_json;    // text of the effective scene
+    Vector3d up{0, 0, 1};
+
+    Surface rest;                    // the input mesh, m
+    std::vector<Vector3d> inflated;  // its nodes after `inflate`, m
+    StrainField inflated_strain;     // per face of `rest`
+    std::optional<Segmentation> segmentation;
+    std::vector<FlatPanel> panels;
+    std::vector<Vector3d> sewn;  // nodes of segmentation->mesh after `sew`, m
+    StrainField sewn_strain;     // per face of segmentation->mesh
+    std::vector<double>
+        deviation;  // per node of segmentation->mesh: signed distance, m; positive outside
+    std::string deviation_from;  // of what: "the surface that was cut", "the target"
+
+    std::vector<SewingStep> sewing_order;
+    std::vector<ConvergenceCurve> convergence;
+    std::vector<ReportPicture> pictures;
+    std::vector<std::string> notes;  // assumptions and warnings of this run, one sentence each
+};
+
+/// The report as one HTML file that needs neither network nor other files.
+std::string compose_report(const ReportInput& input);
+
+/// @throws arcsim::InputError when the place cannot be written; std::invalid_argument when sizes do
+/// not fit together
+void write_report(const ReportInput& input, const std::filesystem::path& path);
+
+}  // namespace formwork
