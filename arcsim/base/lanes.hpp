@@ -20,6 +20,12 @@ inline Lanes square_root(Lanes v) {
 }
 inline double square_root(double v) { return std::sqrt(v); }
 
+/// Comparisons give masks for `select`; both sides are always evaluated.
+using LaneMask = decltype(Lanes{} < Lanes{});
+inline Lanes select(const LaneMask& m, const Lanes& a, const Lanes& b) { return m ? a : b; }
+inline Lanes larger(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
+inline Lanes smaller(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
+
 /// Groups of eight that hold n elements.
 inline int lane_groups(int n) { return (n + n_lanes - 1) / n_lanes; }
 

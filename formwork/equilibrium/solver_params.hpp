@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+
+#include "arcsim/base/archive.hpp"
+
+namespace formwork {
+
+enum class SolverMethod { static_newton, backward_euler, newton_euler, bdf2, dynamic_relaxation };
+inline constexpr std::array solver_method_names{
+    arcsim::EnumName{SolverMethod::static_newton, "static", "Newton's method on the equilibrium"},
+    arcsim::EnumName{SolverMethod::backward_euler, "backward_euler", "linearly implicit steps in time until at rest"},
+    arcsim::EnumName{SolverMethod::newton_euler, "newton_euler", "fully implicit steps in time until at rest"},
+    arcsim::EnumName{SolverMethod::bdf2, "bdf2", "second-order implicit steps in time until at rest"},
+    arcsim::EnumName{SolverMethod::dynamic_relaxation, "dynamic_relaxation", "explicit steps with kinetic damping"}};
+
+enum class LinearSolverChoice { cholmod, umfpack, eigen };
+inline constexpr std::array linear_solver_names{
+    arcsim::EnumName{LinearSolverChoice::cholmod, "cholmod", "supernodal Cholesky of the symmetric tangent"},
+    arcsim::EnumName{LinearSolverChoice::umfpack, "umfpack", "LU of the unsymmetric tangent"},
+    arcsim::EnumName{LinearSolverChoice::eigen, "eigen", "Eigen's LDLT, for comparison"}};
+
+/// How the equilibrium is found.
+struct SolverParams {
+    SolverMethod method = SolverMethod::static_newton;
+    double tolerance = 1e-8;       // |f_free| / |applied load|
+    double time_step = 0.01;       // s; methods in time
+    double end_time = 10;          // s; methods in time
+    int max_iterations = 200;      // Newton steps in all
+    double damping = 0;            // s; stiffness-proportional damping beta of the fabric; methods in time
+    LinearSolverChoice linear_solver = LinearSolverChoice::cholmod;
+    int threads = 0;               // 0: one below 40 000 nodes, all above
+    bool nested = true;            // start from the solution on coarser meshes where that pays
+};
+
+template <class Archive>
+void visit(Archive& a, SolverParams& p) {
+    using namespace arcsim;
+    a.choice("method", p.method, solver_method_names, "How the equilibrium is found.");
+    a.optional("tolerance", p.tolerance, "", positive, "Force residual relative to the applied load.");
+    a.optional("time_step", p.time_step, "s", positive, "Step of the methods in time.");
+    a.optional("end_time", p.end_time, "s", positive, "The methods in time stop here at the latest.");
+    a.optional("max_iterations", p.max_iterations, "", at_least(1), "Newton steps in all.");
+    a.optional("damping", p.damping, "s", non_negative, "Stiffness-proportional damping; methods in time.");
+    a.choice("linear_solver", p.linear_solver, linear_solver_names, "Factorisation of the tangent.");
+    a.optional("threads", p.threads, "", non_negative, "Threads; 0: one below 40 000 nodes, all above.");
+    a.optional("nested", p.nested, "Start from the solution on coarser meshes where that pays.");
+}
+
+}  // namespace formwork

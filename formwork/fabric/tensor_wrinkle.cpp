@@ -1,0 +1,139 @@
+#include "formwork/fabric/tensor_wrinkle.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+
+namespace formwork {
+namespace {
+
+using std::numbers::pi;
+
+/// Voigt vectors of n n^T (strain measure), and of the symmetric t n^T.
+Vector3d normal_normal(double c, double s) { return {s * s, c * c, -2 * s * c}; }      // n = (-s, c)
+Vector3d tension_normal(double c, double s) { return {-c * s, s * c, c * c - s * s}; }
+
+/// w(a) and its first two derivatives for compliance s11, s12, s22, s66.
+struct Objective {
+    double v0, v1, v2;              // strain (e_uu, e_vv, 2 e_uv)
+    double s11, s12, s22, s66;      // m/N
+
+    struct Value {
+        double e, w, dw, ddw;
+    };
+    Value at(double a) const {
+        const double c = std::cos(a), s = std::sin(a);
+        const double C = c * c, S = s * s, P = c * s, D = C - S;
+        const double e = C * v0 + S * v1 + P * v2;
+        const double de = 2 * P * (v1 - v0) + D * v2;
+        const double dde = 2 * D * (v1 - v0) - 4 * P * v2;
+        const double b = 2 * s12 + s66;
+        const double q = s11 * C * C + s22 * S * S + b * P * P;   // N.s N
+        const double dq = -4 * s11 * C * P + 4 * s22 * S * P + 2 * b * P * D;
+        const double ddq = s11 * (8 * P * P - 4 * C * D) + s22 * (8 * P * P + 4 * S * D) + 2 * b * (D * D - 4 * P * P);
+        Value r;
+        r.e = e;
+        r.w = e * e / (2 * q);
+        r.dw = e * de / q - e * e * dq / (2 * q * q);
+        r.ddw = (de * de + e * dde) / q - 2 * e * de * dq / (q * q) - e * e * ddq / (2 * q * q) +
+                e * e * dq * dq / (q * q * q);
+        return r;
+    }
+};
+
+}  // namespace
+
+Vector3d with_wrinkle(const Vector3d& eps, const Wrinkle& w) {
+    const double c = std::cos(w.a), s = std::sin(w.a);
+    return {eps[0] + w.p * s * s, eps[1] + w.p * c * c, eps[2] - w.p * s * c};
+}
+
+Wrinkle wrinkle_of_constant(const arcsim::Stiffness4& k, const Vector3d& eps) {
+    const double kuu = k[0], kuv = k[1], kvv = k[2], kss = k[3];
+    const double det = kuu * kvv - kuv * kuv;
+    const Objective f{eps[0], eps[1], 2 * eps[2], kvv / det, -kuv / det, kuu / det, 2 / kss};
+
+    constexpr int n_scan = 24;                 // 7.5 degrees: narrower than any maximum of a ratio of quartics here
+    double best = 0, best_w = -1;
+    for (int i = 0; i < n_scan; ++i) {
+        const double a = pi * i / n_scan;
+        const double c = std::cos(a), s = std::sin(a);
+        const double e = c * c * f.v0 + s * s * f.v1 + c * s * f.v2;
+        if (e <= 0) continue;
+        const double q = f.s11 * c * c * c * c + f.s22 * s * s * s * s + (2 * f.s12 + f.s66) * c * c * s * s;
+        if (e * e > best_w * q) best_w = e * e / q, best = a;
+    }
+    if (best_w < 0) best = 0.5 * std::atan2(2 * eps[2], eps[0] - eps[1]);   // a sliver of tension between two samples
+    double low = best - pi / n_scan, high = best + pi / n_scan, a = best;
+    for (int i = 0; i < 60; ++i) {             // Newton inside a shrinking bracket of the stationary point
+        const Objective::Value v = f.at(a);
+        (v.dw > 0 ? low : high) = a;
+        double next = v.ddw < 0 ? a - v.dw / v.ddw : 0.5 * (low + high);
+        if (!(next > low && next < high)) next = 0.5 * (low + high);
+        const bool done = std::abs(next - a) < 1e-15;
+        a = next;
+        if (done || high - low < 1e-15) break;
+    }
+    const double c = std::cos(a), s = std::sin(a);
+    const Vector3d N(c * c, s * s, c * s);
+    Wrinkle w;
+    w.a = a;
+    const Vector3d sN(f.s11 * N[0] + f.s12 * N[1], f.s12 * N[0] + f.s22 * N[1], f.s66 * N[2]);
+    w.sigma = N.dot(Vector3d(f.v0, f.v1, f.v2)) / N.dot(sN);
+    // The strain across t: what the stress asks for, less what there is. Voigt shear is twice the tensor's.
+    const Vector3d more = w.sigma * sN - Vector3d(f.v0, f.v1, f.v2);
+    w.p = s * s * more[0] + c * c * more[1] - s * c * more[2];
+    return w;
+}
+
+bool refine_wrinkle(const std::function<TensorStress(const Vector3d&)>& law, const Vector3d& eps, Wrinkle& w) {
+    // First freeze the table (it changes slowly), then Newton on the two equations with its exact slope.
+    for (int i = 0; i < 3; ++i) w = wrinkle_of_constant(law(with_wrinkle(eps, w)).k, eps);
+    const auto residual = [](const TensorStress& t, double a) -> arcsim::Vector2d {
+        const double c = std::cos(a), s = std::sin(a);
+        return {normal_normal(c, s).dot(t.S), tension_normal(c, s).dot(t.S)};
+    };
+    TensorStress now = law(with_wrinkle(eps, w));
+    arcsim::Vector2d R = residual(now, w.a);
+    for (int i = 0; i < 20; ++i) {
+        const double c = std::cos(w.a), s = std::sin(w.a);
+        const Vector3d Vn = normal_normal(c, s), Vt = tension_normal(c, s);
+        w.sigma = c * c * now.S[0] + s * s * now.S[1] + 2 * c * s * now.S[2];
+        if (R.norm() <= 1e-13 * std::abs(w.sigma)) return true;
+        arcsim::Matrix2d J;                    // columns: d/dp, d/da; d(n n^T)/da = -2 sym(t n^T)
+        const Vector3d CVn = now.C * Vn, CVt = now.C * Vt;
+        J << Vn.dot(CVn), -2 * w.p * Vn.dot(CVt) - 2 * R[1],   //
+            Vt.dot(CVn), -2 * w.p * Vt.dot(CVt) + R[0] - w.sigma;
+        const arcsim::Vector2d d = J.fullPivLu().solve(R);
+        double step = 1;
+        bool better = false;
+        for (int k = 0; k < 8 && !better; ++k, step *= 0.5) {
+            Wrinkle next = w;
+            next.p -= step * d[0];
+            next.a -= step * d[1];
+            const TensorStress there = law(with_wrinkle(eps, next));
+            const arcsim::Vector2d Rn = residual(there, next.a);
+            if (Rn.norm() < R.norm()) w = next, now = there, R = Rn, better = true;
+        }
+        if (!better) break;
+    }
+    const double c = std::cos(w.a), s = std::sin(w.a);
+    w.sigma = c * c * now.S[0] + s * s * now.S[1] + 2 * c * s * now.S[2];
+    return R.norm() <= 1e-9 * std::abs(w.sigma);
+}
+
+Matrix3d wrinkle_tangent(const TensorStress& at, const Wrinkle& w) {
+    const double c = std::cos(w.a), s = std::sin(w.a);
+    const Vector3d Vn = normal_normal(c, s), Vt = tension_normal(c, s);
+    const Vector3d CVn = at.C * Vn, CVt = at.C * Vt;
+    arcsim::Matrix2d J;
+    J << Vn.dot(CVn), -2 * w.p * Vn.dot(CVt),   //
+        Vt.dot(CVn), -2 * w.p * Vt.dot(CVt) - w.sigma;
+    Eigen::Matrix<double, 2, 3> rhs;
+    rhs.row(0) = -Vn.transpose() * at.C;
+    rhs.row(1) = -Vt.transpose() * at.C;
+    const Eigen::Matrix<double, 2, 3> d = J.inverse() * rhs;   // det < 0: w'' < 0 at the maximum
+    return at.C + CVn * d.row(0) - 2 * w.p * CVt * d.row(1);
+}
+
+}  // namespace formwork
