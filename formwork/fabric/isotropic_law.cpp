@@ -4,11 +4,11 @@
 
 namespace formwork {
 
-using arcsim::lanes;
-using arcsim::max;
-using arcsim::min;
+using arcsim::all_lanes;
+using arcsim::larger;
+using arcsim::smaller;
 using arcsim::select;
-using arcsim::sqrt;
+using arcsim::square_root;
 
 namespace {
 
@@ -18,9 +18,9 @@ constexpr double tiny_difference = 1e-8;
 
 /// The symmetric 2x2 matrix without its negative part.
 void drop_negative_part(Lanes& a, Lanes& b, Lanes& d) {   // [[a, b], [b, d]]
-    const Lanes m = 0.5 * (a + d), h = 0.5 * (a - d), r = sqrt(h * h + b * b);
-    const Lanes high = max(m + r, Lanes{}), low = max(m - r, Lanes{});
-    const Lanes safe = select(r > 0, r, lanes(1));
+    const Lanes m = 0.5 * (a + d), h = 0.5 * (a - d), r = square_root(h * h + b * b);
+    const Lanes high = larger(m + r, Lanes{}), low = larger(m - r, Lanes{});
+    const Lanes safe = select(r > 0, r, all_lanes(1));
     const Lanes mean = 0.5 * (high + low), half = 0.5 * (high - low) / safe;
     a = mean + half * h;
     d = mean - half * h;
@@ -39,18 +39,18 @@ IsotropicMembrane::IsotropicMembrane(const MaterialParams& p)
 }
 
 IsotropicMembrane::Stiffness IsotropicMembrane::stiffness(const Lanes& e) const {
-    const Lanes lambda = sqrt(max(1 + 2 * e, lanes(1e-12)));
+    const Lanes lambda = square_root(larger(1 + 2 * e, all_lanes(1e-12)));
     const Lanes t = (2 * e / (1 + lambda)) / range_;           // (lambda - 1) / range without cancellation
     const auto inside = (t > 0) & (t < 1);
-    const Lanes s = min(max(t, Lanes{}), lanes(1));
+    const Lanes s = smaller(larger(t, Lanes{}), all_lanes(1));
     const Lanes ds = select(inside, 1 / (range_ * lambda), Lanes{});
     return {k0_ + (k1_ - k0_) * s, (k1_ - k0_) * ds, q0_ + (q1_ - q0_) * s, (q1_ - q0_) * ds};
 }
 
 /// psi(e), by the stretch u = lambda - 1: a polynomial, so that nothing cancels at small strains.
 Lanes IsotropicMembrane::potential(const Lanes& e) const {
-    const Lanes lambda = sqrt(max(1 + 2 * e, lanes(1e-12)));
-    const Lanes u = min(2 * e / (1 + lambda), lanes(range_));
+    const Lanes lambda = square_root(larger(1 + 2 * e, all_lanes(1e-12)));
+    const Lanes u = smaller(2 * e / (1 + lambda), all_lanes(range_));
     const double slope = (k1_ - k0_) / range_;
     const Lanes rising = u * u * (k0_ * (0.5 + u * (0.5 + 0.125 * u)) + slope * u * (1. / 3 + u * (0.375 + 0.1 * u)));
     const double e_max = range_ * (1 + 0.5 * range_);
@@ -60,10 +60,10 @@ Lanes IsotropicMembrane::potential(const Lanes& e) const {
 
 void IsotropicMembrane::evaluate(const StrainLanes& e, Want want, StressLanes& out) const {
     const Lanes m = 0.5 * (e.uu + e.vv), d = 0.5 * (e.uu - e.vv);
-    const Lanes R = sqrt(d * d + e.uv * e.uv);
+    const Lanes R = square_root(d * d + e.uv * e.uv);
     const auto split = R > tiny_difference;
-    const Lanes safe_R = select(R > 0, R, lanes(1));
-    const Lanes c2 = select(R > 0, d / safe_R, lanes(1)), s2 = e.uv / safe_R;   // of twice the angle
+    const Lanes safe_R = select(R > 0, R, all_lanes(1));
+    const Lanes c2 = select(R > 0, d / safe_R, all_lanes(1)), s2 = e.uv / safe_R;   // of twice the angle
     const Lanes e1 = m + R, e2 = m - R;
 
     // The whole law: stresses and D = dS_i/de_j.
@@ -75,7 +75,7 @@ void IsotropicMembrane::evaluate(const StrainLanes& e, Want want, StressLanes& o
         S2 = b.k * e2 + q0_ * e1;
         D11 = a.k + a.dk * e1;
         D22 = b.k + b.dk * e2;
-        D12 = D21 = lanes(q0_);
+        D12 = D21 = all_lanes(q0_);
         G = select(split, (S1 - S2) / (4 * safe_R), 0.5 * (D11 - q0_));
     } else {
         S1 = a.k * e1 + a.q * e2;
@@ -94,7 +94,7 @@ void IsotropicMembrane::evaluate(const StrainLanes& e, Want want, StressLanes& o
         const auto slack = e1 <= 0;
         const auto wrinkled = (S2 < 0) & ~slack;
         // Wrinkled: the width contracts freely, e2 -> -q e1 / k.
-        const Lanes k = separable_ ? lanes(k0_) : a.k, q = a.q;
+        const Lanes k = separable_ ? all_lanes(k0_) : a.k, q = a.q;
         const Lanes W1 = a.k * e1 - q * q * e1 / k;
         const Lanes dW1 = a.k + a.dk * e1 - (q * q + 2 * q * a.dq * e1) / k +
                           (separable_ ? Lanes{} : q * q * e1 * a.dk / (k * k));
@@ -123,7 +123,7 @@ void IsotropicMembrane::evaluate(const StrainLanes& e, Want want, StressLanes& o
     Lanes Ds = 0.5 * (D12 + D21), Da = 0.5 * (D12 - D21);
     if (want == Want::definite_tangent) {
         drop_negative_part(D11, Ds, D22);
-        G = max(G, Lanes{});
+        G = larger(G, Lanes{});
         Da = Lanes{};
     }
     // C = sum D_ij N_i N_j^T + G M M^T; N1 = (A, B, h), N2 = (B, A, -h), M = (-2h, 2h, c2)
@@ -144,7 +144,7 @@ FaceState IsotropicMembrane::state(const Vector3d& eps) const {
     const double m = 0.5 * (eps[0] + eps[1]), R = std::hypot(0.5 * (eps[0] - eps[1]), eps[2]);
     const double e1 = m + R, e2 = m - R;
     if (e1 <= 0) return FaceState::slack;
-    const Stiffness a = stiffness(lanes(e1)), b = stiffness(lanes(e2));
+    const Stiffness a = stiffness(all_lanes(e1)), b = stiffness(all_lanes(e2));
     const double S2 = (separable_ ? b.k[0] : a.k[0]) * e2 + a.q[0] * e1;
     return S2 < 0 ? FaceState::wrinkled : FaceState::taut;
 }

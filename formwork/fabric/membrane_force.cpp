@@ -6,10 +6,12 @@
 #include <string>
 
 #include "arcsim/base/error.hpp"
-#include "formwork/fabric/block_lanes.hpp"
+#include "arcsim/base/block_lanes.hpp"
 
 namespace formwork {
 
+using arcsim::BlockLanes;
+using arcsim::Half;
 using arcsim::n_lanes;
 
 struct MembraneForce::Frame {
@@ -96,9 +98,9 @@ void sandwich(const Lanes u[3], const Lanes v[3], const Stiffness2& M, const Lan
 
 /// Principal stresses below zero taken out.
 void drop_compression(StressLanes& s) {
-    const Lanes m = 0.5 * (s.uu + s.vv), d = 0.5 * (s.uu - s.vv), R = arcsim::sqrt(d * d + s.uv * s.uv);
-    const Lanes high = arcsim::max(m + R, Lanes{}), low = arcsim::max(m - R, Lanes{});
-    const Lanes mean = 0.5 * (high + low), half = 0.5 * (high - low) / arcsim::select(R > 0, R, arcsim::lanes(1));
+    const Lanes m = 0.5 * (s.uu + s.vv), d = 0.5 * (s.uu - s.vv), R = arcsim::square_root(d * d + s.uv * s.uv);
+    const Lanes high = arcsim::larger(m + R, Lanes{}), low = arcsim::larger(m - R, Lanes{});
+    const Lanes mean = 0.5 * (high + low), half = 0.5 * (high - low) / arcsim::select(R > 0, R, arcsim::all_lanes(1));
     s.uu = mean + half * d;
     s.vv = mean - half * d;
     s.uv = half * s.uv;
@@ -152,7 +154,7 @@ void MembraneForce::assemble(const State& s, Tangent t, VectorXd* g, BlockMatrix
             sandwich(fr.u, fr.v, material_part(C, u1, v1, u1, v1), geometric(u1, v1, u1, v1), K.b11);
             sandwich(fr.u, fr.v, material_part(C, u1, v1, u2, v2), geometric(u1, v1, u2, v2), K.b12);
             sandwich(fr.u, fr.v, material_part(C, u2, v2, u2, v2), geometric(u2, v2, u2, v2), K.b22);
-            scatter_symmetric(K, group.node, n_lanes * i, n, *pattern_, H->values());
+            scatter(complete(K, Half::symmetric), Half::symmetric, group.node, n_lanes * i, n, *pattern_, H->values());
             if (with_skew) {
                 Lanes w[3];
                 for (int k = 0; k < 3; ++k) w[k] = A * st.skew[k];
@@ -160,7 +162,8 @@ void MembraneForce::assemble(const State& s, Tangent t, VectorXd* g, BlockMatrix
                 sandwich(fr.u, fr.v, skew_part(w, u1, v1, u1, v1), zero, K.b11);
                 sandwich(fr.u, fr.v, skew_part(w, u1, v1, u2, v2), zero, K.b12);
                 sandwich(fr.u, fr.v, skew_part(w, u2, v2, u2, v2), zero, K.b22);
-                scatter_skew(K, group.node, n_lanes * i, n, *pattern_, H->skew_values());
+                scatter(complete(K, Half::antisymmetric), Half::antisymmetric, group.node, n_lanes * i, n, *pattern_,
+                        H->skew_values());
             }
         }
     }
@@ -203,7 +206,8 @@ void MembraneForce::add_laplacian(double T0, BlockMatrix& H) const {
             K.b12[4 * c] = w12;
             K.b22[4 * c] = w22;
         }
-        scatter_symmetric(K, g.node, n_lanes * i, std::min(n_lanes, n_faces_ - n_lanes * i), *pattern_, H.values());
+        scatter(complete(K, Half::symmetric), Half::symmetric, g.node, n_lanes * i,
+                std::min(n_lanes, n_faces_ - n_lanes * i), *pattern_, H.values());
     }
 }
 
@@ -230,14 +234,14 @@ Vector3d MembraneForce::strain(const VectorXd& x, int f) const {
 }
 
 std::array<double, 2> MembraneForce::stretch_range(const VectorXd& x) const {
-    Lanes high = arcsim::lanes(-0.5), low = arcsim::lanes(1e300);
+    Lanes high = arcsim::all_lanes(-0.5), low = arcsim::all_lanes(1e300);
     Frame fr;
     for (const Group& group : groups_) {
         frame(group, x, fr);
         const Lanes m = 0.5 * (fr.e.uu + fr.e.vv), d = 0.5 * (fr.e.uu - fr.e.vv);
-        const Lanes R = arcsim::sqrt(d * d + fr.e.uv * fr.e.uv);
-        high = arcsim::max(high, m + R);
-        low = arcsim::min(low, m - R);
+        const Lanes R = arcsim::square_root(d * d + fr.e.uv * fr.e.uv);
+        high = arcsim::larger(high, m + R);
+        low = arcsim::smaller(low, m - R);
     }
     double e_high = -0.5, e_low = 1e300;
     for (int l = 0; l < n_lanes; ++l) {

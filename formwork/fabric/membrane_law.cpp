@@ -13,7 +13,7 @@ std::unique_ptr<MembraneLaw> make_membrane_law(const MaterialParams& p) {
 }
 
 FaceStress evaluate_one(const MembraneLaw& law, const Vector3d& eps, Want want) {
-    const StrainLanes e{arcsim::lanes(eps[0]), arcsim::lanes(eps[1]), arcsim::lanes(eps[2])};
+    const StrainLanes e{arcsim::all_lanes(eps[0]), arcsim::all_lanes(eps[1]), arcsim::all_lanes(eps[2])};
     StressLanes s{};
     law.evaluate(e, want, s);
     FaceStress out;
