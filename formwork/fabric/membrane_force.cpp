@@ -33,7 +33,7 @@ MembraneForce::MembraneForce(const std::vector<Triangle>& faces, const std::vect
         constexpr double flattest = 1e-9;   // height over longest edge: below it 1/det is noise
         if (!(det > flattest * longest * longest))
             throw arcsim::InputError("face " + std::to_string(f) + ": its rest shape " +
-                                     (det < 0 ? "is inside out (corners clockwise in (u, v))" : "has no area") +
+                                     (det < -flattest * longest * longest ? "is inside out (corners clockwise in (u, v))" : "has no area") +
                                      ". Repair the mesh or its rest coordinates");
         g.gu1[l] = b[1] / det;
         g.gv1[l] = -b[0] / det;
