@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "formwork/segment/segmentation.hpp"
+
+namespace formwork {
+
+using arcsim::Vector2d;
+using arcsim::Vector3d;
+
+/// A point of a curve on a mesh: a node (b < 0), or the point a + t (b - a) inside the edge a-b.
+struct CurvePoint {
+    int a = -1, b = -1;
+    double t = 0;
+    bool is_node() const { return b < 0; }
+};
+using Curve = std::vector<CurvePoint>;   // neighbours share a face
+
+inline Vector3d position(const Surface& s, const CurvePoint& p) {
+    return p.is_node() ? s.x[p.a] : Vector3d((1 - p.t) * s.x[p.a] + p.t * s.x[p.b]);
+}
+
+/// The surface while it is being cut: faces are split where curves cross them, and the edges under the
+/// curves are marked as seams. Nodes of the input keep their numbers; new ones follow.
+class CutMesh {
+public:
+    explicit CutMesh(const Surface& input);
+
+    const Surface& surface() const { return surface_; }
+    const std::vector<SurfacePoint>& source() const { return source_; }
+    const std::vector<int>& source_face() const { return source_face_; }
+
+    /// The face that face f was split off from; -1: a face of the input.
+    int split_from(int f) const { return split_from_[f]; }
+
+    /// The face to the left of the directed edge a -> b; -1: none.
+    int face_left(int a, int b) const;
+    bool is_rim(int a, int b) const { return (face_left(a, b) < 0) != (face_left(b, a) < 0); }
+    bool is_seam(int a, int b) const { return seams_.count(undirected(a, b)) > 0; }
+    bool is_border(int a, int b) const { return is_seam(a, b) || is_rim(a, b); }
+    void mark_seam(int a, int b) { seams_.insert(undirected(a, b)); }
+    void unmark_seam(int a, int b) { seams_.erase(undirected(a, b)); }
+
+    /// Splits the faces along the curve and returns its nodes. The pieces are not marked.
+    std::vector<int> insert(const Curve& curve);
+    /// insert(), and every step becomes a seam.
+    std::vector<int> insert_seam(const Curve& curve);
+
+    /// Puts a node inside the edge a-b, at a + t (b - a); the faces at the edge become two each.
+    int split_edge(int a, int b, double t);
+    /// Turns the edge a-b inside its two faces; false when it is a border or the turned edge exists already.
+    bool flip(int a, int b);
+    /// Moves a node to another point of the input surface.
+    void move(int node, const SurfacePoint& where, const Vector3d& x);
+    void set_source_face(int face, int source) { source_face_[face] = source; }
+
+private:
+    static std::uint64_t directed(int a, int b) {
+        return static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32 | static_cast<std::uint32_t>(b);
+    }
+    static std::uint64_t undirected(int a, int b) { return a < b ? directed(a, b) : directed(b, a); }
+    void set_face(int f, const arcsim::Triangle& t);
+    void split_face(int f, int a, int b, int m);
+    SurfacePoint locate(int face, const Vector3d& x) const;
+
+    const Surface* input_;
+    Surface surface_;
+    std::vector<SurfacePoint> source_;
+    std::vector<int> source_face_, split_from_;
+    std::unordered_map<std::uint64_t, int> left_;   // directed edge -> face
+    std::unordered_set<std::uint64_t> seams_;
+};
+
+/// Barycentric coordinates of the point of face f's plane nearest to x; they sum to 1 and may be negative.
+std::array<double, 3> barycentric_coordinates(const Surface& s, int f, const Vector3d& x);
+
+}  // namespace formwork

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "formwork/segment/cut_mesh.hpp"
+
+namespace formwork {
+
+/// Panel number of every face: faces are of one panel when a walk over edges that are no seams joins them.
+/// Numbered by the lowest face. @param n_panels is set
+std::vector<int> label_panels(const CutMesh& cut, int& n_panels);
+
+/// Faces of each panel, in increasing order.
+std::vector<std::vector<int>> panel_faces(const std::vector<int>& panel, int n_panels);
+
+/// One panel as a surface of its own, cut open along seams that end or run inside it.
+struct PanelPatch {
+    Surface surface;
+    Topology topology;
+    std::vector<int> node, face;   // local -> cut mesh
+    std::vector<char> junction;    // per local node: three or more borders meet here, or a seam and the rim do
+
+    bool is_disk() const { return topology.boundary_loops.size() == 1 && topology.euler_characteristic() == 1; }
+    double area() const { return arcsim::total_area(surface); }
+    double border_length() const;
+};
+
+PanelPatch extract_patch(const CutMesh& cut, const std::vector<int>& faces);
+
+/// Interior angle of the patch at a boundary node, rad.
+double boundary_angle(const PanelPatch& patch, int node);
+
+/// Corners of a patch: junctions, and sharp nodes of the rim, where the outline turns by more than 40°.
+/// Local node numbers, along the boundary loops.
+std::vector<int> corner_nodes(const PanelPatch& patch);
+
+/// Diameter of the largest disk in the patch, measured along edges: twice the largest distance to the border, m.
+double patch_width(const PanelPatch& patch);
+
+}  // namespace formwork

@@ -1,0 +1,341 @@
+#include "formwork/segment/panel_split.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <set>
+
+#include "formwork/segment/field_paths.hpp"
+#include "formwork/segment/surface_curve.hpp"
+
+namespace formwork {
+namespace {
+
+constexpr double snap_reach = 0.22;   // of an edge: nearer points move onto the vertex
+constexpr int smoothing_rounds = 10;
+constexpr int trial_cells = 400;      // of the coarse panel on which candidates are compared
+constexpr std::size_t most_port_pairs = 24;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+struct Candidate {
+    Path path;
+    StretchEstimate after;
+    double score = 0;   // larger is better
+    int seed = -1;
+};
+
+Curve sample_points(const FieldGraph& graph, const Path& path) {
+    Curve c;
+    for (int i : path.samples) c.push_back(graph.point(i));
+    return c;
+}
+
+/// Where a border sample lies: which loop, and how far round it (node number in the loop, +1/2 inside an edge).
+struct BorderPlaces {
+    std::vector<int> loop;         // per node, -1 inside
+    std::vector<double> place;     // per node
+    std::vector<char> is_corner;   // per node
+    std::vector<int> loop_size;
+
+    explicit BorderPlaces(const PanelPatch& p)
+        : loop(p.node.size(), -1), place(p.node.size(), 0), is_corner(p.node.size(), 0) {
+        for (std::size_t l = 0; l < p.topology.boundary_loops.size(); ++l) {
+            const auto& nodes = p.topology.boundary_loops[l];
+            loop_size.push_back(static_cast<int>(nodes.size()));
+            for (std::size_t i = 0; i < nodes.size(); ++i) {
+                loop[nodes[i]] = static_cast<int>(l);
+                place[nodes[i]] = static_cast<double>(i);
+            }
+        }
+        for (int v : corner_nodes(p)) is_corner[v] = 1;
+    }
+    double place_of(const CurvePoint& q) const {
+        if (q.is_node()) return place[q.a];
+        const double a = place[q.a], b = place[q.b];
+        return std::abs(a - b) > 1.5 ? std::max(a, b) + 0.5 : 0.5 * (a + b);
+    }
+};
+
+/// Corners of the two pieces of a disk that a curve divides: those left on each side, and the curve's two ends.
+int most_corners_after(const PanelPatch& p, const BorderPlaces& places, const CurvePoint& a, const CurvePoint& b) {
+    const auto& nodes = p.topology.boundary_loops[places.loop[a.a]];
+    const double from = std::min(places.place_of(a), places.place_of(b)), to = std::max(places.place_of(a), places.place_of(b));
+    int inside = 2, outside = 2;
+    for (int v : nodes) {
+        if (!places.is_corner[v] || places.place[v] == from || places.place[v] == to) continue;
+        ++(places.place[v] > from && places.place[v] < to ? inside : outside);
+    }
+    return std::max(inside, outside);
+}
+
+struct Pieces {
+    int count = 0;
+    double least_width = infinite;   // m: twice the largest distance to border and curve on a side, along edges
+};
+
+/// What a curve makes of a panel.
+Pieces cut_pieces(const PanelPatch& p, const Curve& curve) {
+    const Surface& s = p.surface;
+    std::set<std::pair<int, int>> crossed;
+    std::vector<double> distance(s.n_nodes(), infinite);
+    using Item = std::pair<double, int>;
+    std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
+    for (int v = 0; v < s.n_nodes(); ++v)
+        if (p.topology.is_boundary_node(v)) queue.emplace(distance[v] = 0, v);
+    std::vector<char> blocked(s.n_nodes(), 0);
+    for (const CurvePoint& q : curve) {
+        if (q.is_node()) {
+            queue.emplace(distance[q.a] = 0, q.a);
+            blocked[q.a] = 1;
+            continue;
+        }
+        crossed.emplace(std::minmax(q.a, q.b));
+        for (int v : {q.a, q.b}) {
+            const double d = (s.x[v] - position(s, q)).norm();
+            if (d < distance[v]) queue.emplace(distance[v] = d, v);
+        }
+    }
+    std::vector<std::vector<std::pair<int, double>>> around(s.n_nodes());
+    for (const arcsim::Edge& e : p.topology.edges) {
+        if (crossed.count(std::minmax(e.node[0], e.node[1]))) continue;
+        const double l = (s.x[e.node[0]] - s.x[e.node[1]]).norm();
+        around[e.node[0]].emplace_back(e.node[1], l);
+        around[e.node[1]].emplace_back(e.node[0], l);
+    }
+    while (!queue.empty()) {
+        const auto [d, v] = queue.top();
+        queue.pop();
+        if (d > distance[v]) continue;
+        for (const auto& [w, l] : around[v])
+            if (d + l < distance[w]) queue.emplace(distance[w] = d + l, w);
+    }
+    std::vector<char> seen(s.n_nodes(), 0);
+    Pieces pieces;
+    std::vector<int> stack;
+    for (int seed = 0; seed < s.n_nodes(); ++seed) {
+        if (seen[seed] || blocked[seed]) continue;
+        double widest = 0;
+        seen[seed] = 1;
+        stack.assign(1, seed);
+        while (!stack.empty()) {
+            const int v = stack.back();
+            stack.pop_back();
+            widest = std::max(widest, distance[v]);
+            for (const auto& [w, l] : around[v])
+                if (!seen[w] && !blocked[w]) {
+                    seen[w] = 1;
+                    stack.push_back(w);
+                }
+        }
+        ++pieces.count;
+        pieces.least_width = std::min(pieces.least_width, 2 * widest);
+    }
+    return pieces;
+}
+
+class Search {
+public:
+    Search(const PanelPatch& patch, const SurfaceField& field, const SplitRules& rules)
+        : patch_(patch), rules_(rules), places_(patch),
+          graph_(patch.surface, patch.topology, field, rules.drift, patch.surface.n_faces() < 6000 ? 2 : 1),
+          model_(patch, trial_cells), is_disk_(patch.is_disk()), is_closed_(patch.topology.boundary_loops.empty()) {
+        starts_ = start_nodes();
+        if (!is_closed_) before_ = model_.whole();
+    }
+
+    std::optional<Split> along_field() {
+        if (is_closed_)
+            collect_loops();
+        else
+            collect_crossings();
+        std::stable_sort(found_.begin(), found_.end(), [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+        for (std::size_t i = 0; i < found_.size() && i < 40; ++i)
+            if (auto split = finish(found_[i])) return split;
+        return {};
+    }
+
+    std::optional<Split> anyhow() {
+        const auto& loops = patch_.topology.boundary_loops;
+        Candidate c;
+        if (is_closed_) {   // a slit between a point and one of those far from it
+            const auto ends = spread(2, {});
+            if (ends.size() < 2) return {};
+            const auto path = plain_path(graph_, {ends[0]}, {ends[1]});
+            if (!path) return {};
+            c.path = *path;
+        } else if (loops.size() > 1) {
+            std::vector<int> from = border_samples(0), to;
+            for (std::size_t l = 1; l < loops.size(); ++l)
+                for (int i : border_samples(static_cast<int>(l))) to.push_back(i);
+            const auto path = plain_path(graph_, from, to);
+            if (!path) return {};
+            c.path = *path;
+        } else {
+            return {};
+        }
+        return finish(c, true);
+    }
+
+private:
+    std::vector<int> border_samples(int loop) const {
+        std::vector<int> samples;
+        for (int i = 0; i < graph_.n_samples(); ++i)
+            if (graph_.is_border(i) && places_.loop[graph_.point(i).a] == loop) samples.push_back(i);
+        return samples;
+    }
+
+    /// One inner node of every cell that the graph can start from.
+    std::vector<int> start_nodes() const {
+        std::vector<int> nodes;
+        for (int v : model_.cell_nodes()) {
+            int start = -1;
+            for (int f : patch_.topology.node_faces[v])
+                for (int w : patch_.surface.faces[f])
+                    if (!graph_.is_singular(w) && !graph_.is_border(w) && (start < 0 || w == v)) start = w;
+            if (start >= 0) nodes.push_back(start);
+        }
+        return nodes;
+    }
+
+    /// Nodes spread over the patch, each as far as possible from the ones before, in straight distance.
+    std::vector<int> spread(int count, std::vector<int> chosen) const {
+        const auto& nodes = starts_;
+        std::vector<double> far(nodes.size(), infinite);
+        const Surface& s = patch_.surface;
+        const auto account = [&](int v) {
+            for (std::size_t i = 0; i < nodes.size(); ++i) far[i] = std::min(far[i], (s.x[nodes[i]] - s.x[v]).squaredNorm());
+        };
+        for (int v : chosen) account(v);
+        while (static_cast<int>(chosen.size()) < count && !nodes.empty()) {
+            const auto i = std::max_element(far.begin(), far.end()) - far.begin();
+            if (far[i] <= 0) break;
+            chosen.push_back(nodes[i]);
+            account(chosen.back());
+        }
+        return chosen;
+    }
+
+    /// Ends at a junction cost nothing; ends close to one would leave a narrow step and cost extra.
+    std::vector<double> landing_costs() const {
+        const Surface& s = patch_.surface;
+        std::vector<double> landing(graph_.n_samples(), 0);
+        std::vector<Vector3d> junctions;
+        for (int v = 0; v < s.n_nodes(); ++v)
+            if (patch_.junction[v]) junctions.push_back(s.x[v]);
+        const double near = 0.6 * rules_.min_width;
+        for (int i = 0; i < graph_.n_samples(); ++i) {
+            if (!graph_.is_border(i)) continue;
+            const CurvePoint q = graph_.point(i);
+            if (q.is_node() && patch_.junction[q.a]) continue;
+            const Vector3d x = position(s, q);
+            for (const Vector3d& j : junctions)
+                if ((x - j).norm() < near) landing[i] = 2 * rules_.min_width;
+        }
+        return landing;
+    }
+
+    void try_path(const std::optional<Path>& path, int seed) {
+        if (!path || path->samples.size() < 3) return;
+        Candidate c{*path, model_.with_cut(sample_points(graph_, *path)), 0, seed};
+        const double flat = std::pow(0.4 * rules_.max_distortion, 2);   // stretch that nobody sees
+        if (is_closed_) {
+            c.score = -path->cost * std::sqrt(c.after.energy / c.after.area + flat);
+        } else {
+            const CurvePoint a = graph_.point(path->samples.front()), b = graph_.point(path->samples.back());
+            const bool joins_loops = places_.loop[a.a] != places_.loop[b.a];
+            const bool divides = c.after.smallest_piece > 0;
+            if (is_disk_) {
+                if (!divides || c.after.smallest_piece < 0.5 * std::pow(rules_.min_width, 2)) return;
+                const int corners = most_corners_after(patch_, places_, a, b);
+                c.score = std::max(1e-30, before_.energy - c.after.energy) / path->cost;
+                if (corners > rules_.max_corners) c.score *= 1e-3 / corners;
+            } else {
+                c.score = -path->cost * std::sqrt(c.after.energy / c.after.area + flat);
+                if (!joins_loops && (divides || patch_.topology.boundary_loops.size() > 1)) return;   // no step towards a disk
+            }
+        }
+        found_.push_back(std::move(c));
+    }
+
+    void collect_loops() {
+        double best = infinite;
+        const auto seeds = spread(std::max(4, rules_.trials / 2), {});
+        for (int v : seeds)
+            for (int layer = 0; layer < 2; ++layer) {
+                if (graph_.is_singular(v)) continue;
+                const auto path = closed_path(graph_, v, layer, 4 * best);
+                if (path) best = std::min(best, path->cost);
+                try_path(path, v);
+            }
+    }
+
+    void collect_crossings() {
+        const BorderPaths paths(graph_, landing_costs());
+        std::set<int> used;
+        const auto try_seed = [&](int v) {
+            if (graph_.is_border(v) || graph_.is_singular(v) || !used.insert(v).second) return;
+            for (int layer = 0; layer < 2; ++layer) try_path(paths.through(v, layer), v);
+        };
+        std::vector<int> first;   // where the stretch is largest, then all over
+        const auto order = model_.nodes_by_stretch();
+        if (!order.empty()) first.push_back(order.front());
+        for (int v : spread(rules_.trials, first)) try_seed(v);
+        const auto& ports = graph_.ports();
+        std::vector<Path> pairs;
+        for (std::size_t i = 0; i < ports.size(); ++i)
+            for (std::size_t j = i + 1; j < ports.size() && ports[j].vertex == ports[i].vertex; ++j)
+                if (auto path = paths.through_ports(ports[i], ports[j])) pairs.push_back(std::move(*path));
+        std::stable_sort(pairs.begin(), pairs.end(), [](const Path& a, const Path& b) { return a.cost > b.cost; });
+        for (std::size_t i = 0; i < std::min(pairs.size(), most_port_pairs); ++i)   // the long ones divide most
+            try_path(pairs[i], pairs[i].samples[pairs[i].samples.size() / 2]);
+        // Look again close to the best.
+        for (int round = 0; round < 2 && !found_.empty(); ++round) {
+            const auto best = std::max_element(found_.begin(), found_.end(),
+                                               [](const Candidate& a, const Candidate& b) { return a.score < b.score; });
+            const Vector3d x = position(patch_.surface, graph_.point(best->seed));
+            std::vector<std::pair<double, int>> close;
+            for (int v : starts_) close.emplace_back((patch_.surface.x[v] - x).squaredNorm(), v);
+            const std::size_t n = std::min<std::size_t>(close.size(), 10);
+            std::partial_sort(close.begin(), close.begin() + static_cast<std::ptrdiff_t>(n), close.end());
+            for (std::size_t i = 0; i < n; ++i) try_seed(close[i].second);
+        }
+    }
+
+    std::optional<Split> finish(const Candidate& c, bool anything = false) const {
+        Curve curve;
+        const bool slit = is_closed_ && anything;
+        curve = crossing_curve(patch_.surface, patch_.topology, graph_, c.path);
+        if (curve.empty()) return {};
+        smooth_curve(patch_.surface, curve, smoothing_rounds);
+        snap_curve(patch_.topology, curve, snap_reach);
+        if (curve.size() < 2 || (!slit && curve.size() < 3)) return {};
+        const Pieces pieces = cut_pieces(patch_, curve);
+        if (!anything && is_disk_ && (pieces.count != 2 || pieces.least_width < rules_.min_width)) return {};
+        if (!is_disk_ && !is_closed_ && pieces.count != 1) return {};   // must open the panel, not divide it
+        Split split{curve, curve_length(patch_.surface, curve), c.path.cost, 0};
+        split.gain = is_closed_ ? 0 : (before_.energy - c.after.energy) / c.path.cost;
+        return split;
+    }
+
+    const PanelPatch& patch_;
+    const SplitRules& rules_;
+    BorderPlaces places_;
+    FieldGraph graph_;
+    StretchModel model_;
+    bool is_disk_, is_closed_;
+    StretchEstimate before_;
+    std::vector<int> starts_;
+    std::vector<Candidate> found_;
+};
+
+}  // namespace
+
+std::optional<Split> best_split(const PanelPatch& patch, const SurfaceField& field, const SplitRules& rules) {
+    return Search(patch, field, rules).along_field();
+}
+
+std::optional<Split> plain_split(const PanelPatch& patch, const SurfaceField& field, const SplitRules& rules) {
+    return Search(patch, field, rules).anyhow();
+}
+
+}  // namespace formwork

@@ -1,0 +1,253 @@
+#include "formwork/segment/stretch_estimate.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <queue>
+
+namespace formwork {
+
+using arcsim::VectorXd;
+
+namespace {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+double corner_angle_at(const Surface& s, const arcsim::Triangle& t, int k) {
+    const Vector3d a = s.x[t[(k + 1) % 3]] - s.x[t[k]], b = s.x[t[(k + 2) % 3]] - s.x[t[k]];
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+struct NodeGraph {
+    std::vector<std::vector<std::pair<int, double>>> around;   // neighbour, length
+};
+
+NodeGraph node_graph(const PanelPatch& p) {
+    NodeGraph g{std::vector<std::vector<std::pair<int, double>>>(p.surface.x.size())};
+    for (const arcsim::Edge& e : p.topology.edges) {
+        const double l = (p.surface.x[e.node[0]] - p.surface.x[e.node[1]]).norm();
+        g.around[e.node[0]].emplace_back(e.node[1], l);
+        g.around[e.node[1]].emplace_back(e.node[0], l);
+    }
+    return g;
+}
+
+/// Cell of every inner node: nearest of seeds that are `radius` apart, after one round of recentring.
+std::vector<int> make_cells(const PanelPatch& p, double radius, std::vector<int>& seeds) {
+    const NodeGraph g = node_graph(p);
+    const int n = p.surface.n_nodes();
+    using Item = std::tuple<double, int, int>;
+    const auto grow = [&](const std::vector<int>& from) {
+        std::vector<double> distance(n, std::numeric_limits<double>::infinity());
+        std::vector<int> cell(n, -1);
+        std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
+        for (std::size_t i = 0; i < from.size(); ++i) queue.emplace(distance[from[i]] = 0, from[i], static_cast<int>(i));
+        while (!queue.empty()) {
+            const auto [d, v, c] = queue.top();
+            queue.pop();
+            if (cell[v] >= 0) continue;
+            cell[v] = c;
+            for (const auto& [w, l] : g.around[v])
+                if (!p.topology.is_boundary_node(w) && d + l < distance[w]) queue.emplace(distance[w] = d + l, w, c);
+        }
+        return cell;
+    };
+    seeds.clear();
+    std::vector<double> near(n, std::numeric_limits<double>::infinity());
+    for (int v = 0; v < n; ++v) {
+        if (p.topology.is_boundary_node(v) || near[v] < radius) continue;
+        seeds.push_back(v);
+        std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> queue;
+        queue.emplace(near[v] = 0, v);
+        while (!queue.empty()) {
+            const auto [d, w] = queue.top();
+            queue.pop();
+            if (d > near[w]) continue;
+            for (const auto& [u, l] : g.around[w])
+                if (!p.topology.is_boundary_node(u) && d + l < std::min(radius, near[u])) queue.emplace(near[u] = d + l, u);
+        }
+    }
+    std::vector<int> cell = grow(seeds);
+    std::vector<Vector3d> centre(seeds.size(), Vector3d::Zero());
+    std::vector<int> count(seeds.size(), 0);
+    for (int v = 0; v < n; ++v)
+        if (cell[v] >= 0) {
+            centre[cell[v]] += p.surface.x[v];
+            ++count[cell[v]];
+        }
+    std::vector<double> nearest(seeds.size(), std::numeric_limits<double>::infinity());
+    for (int v = 0; v < n; ++v)
+        if (cell[v] >= 0) {
+            const double d = (p.surface.x[v] - centre[cell[v]] / count[cell[v]]).squaredNorm();
+            if (d < nearest[cell[v]]) {
+                nearest[cell[v]] = d;
+                seeds[cell[v]] = v;
+            }
+        }
+    return grow(seeds);
+}
+
+}  // namespace
+
+struct StretchModel::Impl {
+    std::vector<int> cell;         // per node; -1: border
+    std::vector<int> seed;         // per cell
+    std::vector<double> area;      // per cell, m²
+    VectorXd curvature;            // per cell: sum of angle defects
+    std::vector<std::vector<int>> neighbours;
+    SparseMatrix laplacian;
+    Eigen::SimplicialLLT<SparseMatrix> pattern;
+    VectorXd phi0;
+
+    VectorXd solve(const std::vector<char>& on_curve) const;
+};
+
+VectorXd StretchModel::Impl::solve(const std::vector<char>& on_curve) const {
+    SparseMatrix a = laplacian;
+    VectorXd b = curvature;
+    for (std::size_t c = 0; c < on_curve.size(); ++c)
+        if (on_curve[c]) {   // phi = 0, kept in the pattern
+            a.coeffRef(static_cast<int>(c), static_cast<int>(c)) *= 1e8;
+            b[static_cast<int>(c)] = 0;
+        }
+    auto& solver = const_cast<Eigen::SimplicialLLT<SparseMatrix>&>(pattern);
+    solver.factorize(a);
+    return solver.solve(b);
+}
+
+StretchModel::StretchModel(const PanelPatch& p, int max_cells) : impl_(std::make_unique<Impl>()) {
+    Impl& m = *impl_;
+    const Surface& s = p.surface;
+    const double total = p.area();
+    m.cell = make_cells(p, 0.95 * std::sqrt(total / max_cells), m.seed);   // spacing of a hexagonal grid is 1.07 of this
+    const int n = static_cast<int>(m.seed.size());
+    m.area.assign(n, 0);
+    m.curvature = VectorXd::Zero(n);
+    m.neighbours.resize(n);
+    std::vector<Vector3d> centre(n, Vector3d::Zero());
+    std::vector<int> count(n, 0);
+    for (int v = 0; v < s.n_nodes(); ++v)
+        if (m.cell[v] >= 0) {
+            m.curvature[m.cell[v]] += 2 * std::numbers::pi;
+            centre[m.cell[v]] += s.x[v];
+            ++count[m.cell[v]];
+        }
+    for (int c = 0; c < n; ++c) centre[c] /= count[c];
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int f = 0; f < s.n_faces(); ++f) {
+        const arcsim::Triangle& t = s.faces[f];
+        const double a = arcsim::face_area(s, f);
+        for (int k = 0; k < 3; ++k) {
+            const int c = m.cell[t[k]];
+            if (c >= 0) {
+                m.area[c] += a / 3;
+                m.curvature[c] -= corner_angle_at(s, t, k);
+            }
+            const int i = t[(k + 1) % 3], j = t[(k + 2) % 3];
+            const int ci = m.cell[i], cj = m.cell[j];
+            if (ci == cj) continue;
+            // Flux between two cells, exact for a linear phi: sum of w_ij (x_i - x_j) against the cells' distance.
+            const double w = std::max(0.02, 0.5 / std::tan(corner_angle_at(s, t, k)));
+            const Vector3d gap = (ci >= 0 ? centre[ci] : s.x[i]) - (cj >= 0 ? centre[cj] : s.x[j]);
+            const double g = std::max(0.05 * w, w * (s.x[i] - s.x[j]).dot(gap) / std::max(gap.squaredNorm(), 1e-30));
+            if (ci >= 0) entries.emplace_back(ci, ci, g);
+            if (cj >= 0) entries.emplace_back(cj, cj, g);
+            if (ci >= 0 && cj >= 0) {
+                entries.emplace_back(ci, cj, -g);
+                entries.emplace_back(cj, ci, -g);
+                m.neighbours[ci].push_back(cj);
+                m.neighbours[cj].push_back(ci);
+            }
+        }
+    }
+    for (auto& list : m.neighbours) {
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+    }
+    for (int c = 0; c < n; ++c) entries.emplace_back(c, c, 1e-9);   // closed surfaces: no border holds phi
+    m.laplacian.resize(n, n);
+    m.laplacian.setFromTriplets(entries.begin(), entries.end());
+    if (n > 0) m.pattern.analyzePattern(m.laplacian);
+}
+
+StretchModel::~StretchModel() = default;
+
+StretchEstimate StretchModel::with_cut(const Curve& curve) const {
+    const Impl& m = *impl_;
+    const int n = n_cells();
+    StretchEstimate e;
+    if (n == 0) return e;
+    std::vector<char> on_curve(n, 0);
+    for (const CurvePoint& q : curve) {
+        const int v = q.is_node() || q.t < 0.5 ? q.a : q.b;
+        int c = m.cell[v];
+        if (c < 0 && !q.is_node()) c = m.cell[v == q.a ? q.b : q.a];
+        if (c >= 0) on_curve[c] = 1;
+    }
+    const VectorXd phi = m.solve(on_curve);
+    std::vector<int> piece(n, -1), stack;
+    std::vector<std::vector<int>> pieces;
+    for (int seed = 0; seed < n; ++seed) {
+        if (piece[seed] >= 0 || on_curve[seed]) continue;
+        pieces.emplace_back();
+        piece[seed] = static_cast<int>(pieces.size()) - 1;
+        stack.assign(1, seed);
+        while (!stack.empty()) {
+            const int c = stack.back();
+            stack.pop_back();
+            pieces.back().push_back(c);
+            for (int d : m.neighbours[c])
+                if (piece[d] < 0 && !on_curve[d]) {
+                    piece[d] = piece[seed];
+                    stack.push_back(d);
+                }
+        }
+    }
+    std::vector<double> areas;
+    for (const auto& cells : pieces) {
+        double area = 0, mean = 0;
+        for (int c : cells) {
+            area += m.area[c];
+            mean += m.area[c] * phi[c];
+        }
+        if (area <= 0) continue;
+        mean /= area;
+        std::vector<std::pair<double, double>> off;   // |phi - mean|, area
+        for (int c : cells) {
+            const double d = phi[c] - mean;
+            e.energy += m.area[c] * d * d;
+            off.emplace_back(std::abs(d), m.area[c]);
+        }
+        std::sort(off.begin(), off.end(), std::greater<>());
+        double above = 0;
+        for (const auto& [d, a] : off)
+            if ((above += a) > 0.05 * area) {
+                e.p95 = std::max(e.p95, d);
+                break;
+            }
+        e.area += area;
+        areas.push_back(area);
+    }
+    std::sort(areas.begin(), areas.end(), std::greater<>());
+    e.smallest_piece = areas.size() < 2 ? 0 : areas[1];
+    return e;
+}
+
+std::vector<int> StretchModel::nodes_by_stretch() const {
+    const Impl& m = *impl_;
+    const int n = n_cells();
+    if (n == 0) return {};
+    const VectorXd phi = m.solve(std::vector<char>(n, 0));
+    std::vector<int> order(n);
+    for (int c = 0; c < n; ++c) order[c] = c;
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return std::abs(phi[a]) > std::abs(phi[b]); });
+    for (int& c : order) c = m.seed[c];
+    return order;
+}
+
+int StretchModel::n_cells() const { return static_cast<int>(impl_->seed.size()); }
+const std::vector<int>& StretchModel::cell_nodes() const { return impl_->seed; }
+
+}  // namespace formwork
