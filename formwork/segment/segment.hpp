@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "arcsim/base/archive.hpp"
+#include "formwork/segment/segmentation.hpp"
+
+namespace formwork {
+
+/// Keys of the scene's `segment` block that the layout reads; the field's are FieldParams.
+struct SegmentParams {
+    FieldParams field;
+    double drift_penalty = 5;      // alpha of (13)
+    double max_angle_deg = 45;     // theta_max of (13)
+    int max_panels = 24;
+    double max_distortion = 0.05;
+    double min_width = 0.03;       // m
+    int threads = 0;
+};
+
+template <class Archive>
+void visit(Archive& a, SegmentParams& p) {
+    visit(a, p.field);
+    a.optional("drift_penalty", p.drift_penalty, "", arcsim::non_negative,
+               "alpha of (13): how much dearer a seam becomes where it drifts from the field.");
+    a.optional("max_angle_deg", p.max_angle_deg, "degrees", arcsim::between(5, 90),
+               "theta_max of (13): seams never drift further from the field within one step.");
+    a.optional("max_panels", p.max_panels, "", arcsim::at_least(1), "Largest number of panels.");
+    a.optional("max_distortion", p.max_distortion, "", arcsim::between(0.001, 1),
+               "Stretch |sigma - 1| between flat pattern and surface that 95 % of every panel's area stays below.");
+    a.optional("min_width", p.min_width, "m", arcsim::non_negative,
+               "Diameter of the largest disk that every panel must hold.");
+}
+
+/// Cuts the surface into panels that can be laid flat and sewn: the cross field of (12), curves along it by
+/// (13), and of these the few that are needed (class Layout).
+/// @param data  one per face
+/// @returns a Segmentation whose `violations` name every bound that could not be met
+/// @throws InputError   surface of several components, non-manifold, degenerate or with unused nodes; data of
+///                      the wrong length or not finite
+/// @throws NumericalError   the field's factorisation failed, or no cut makes a panel a disk
+Segmentation segment(const Surface& s, const std::vector<DirectionData>& data, const SegmentParams& params);
+
+}  // namespace formwork
