@@ -15,7 +15,7 @@ void place_notches(const PanelParams& params, PanelSet& set) {
     std::vector<std::set<int>> taken(set.panels.size());   // styles on each panel
     std::set<int> taken_anywhere;
     for (PanelSeam& seam : set.seams) {
-        seam.notch.clear();
+        seam.notch_rest.clear();
         if (seam.is_rim()) continue;
         const std::set<int>& left = taken[seam.side[0].panel];
         const std::set<int>& right = taken[seam.side[1].panel];
@@ -32,7 +32,7 @@ void place_notches(const PanelParams& params, PanelSet& set) {
 
         const double first = notch_style(style).first, spacing = params.notch_spacing_mm / 1000;
         const int count = std::max(1, static_cast<int>(std::ceil(seam.rest_length / spacing - first)));
-        for (int i = 0; i < count; ++i) seam.notch.push_back((i + first) / (count + first));
+        for (int i = 0; i < count; ++i) seam.notch_rest.push_back((i + first) / (count + first));
     }
 }
 

@@ -20,7 +20,8 @@ struct SeamSide {
 struct PanelSeam {
     std::array<SeamSide, 2> side;   // side[0] left of the chain; side[1].panel is -1 for a rim
     double rest_length = 0;         // on the surface, m
-    std::vector<double> notch;      // fractions of the length, ascending, the same on both sides; none on rims
+    std::vector<double> notch_rest; // where notches divide the seam on the surface: ascending shares of rest_length
+    std::vector<double> notch;      // the same points as shares of the flat length, the same on both sides
     int style = 0;                  // see NotchStyle; differs among the seams of a panel
     double mismatch = 0;            // |a - b| / max(a, b) of the whole seam
     double local_mismatch = 0;      // the largest |a - b| between notches over the longer one

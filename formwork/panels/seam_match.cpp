@@ -32,7 +32,7 @@ std::vector<Stretch> stretches(const PanelSet& set, const std::vector<std::vecto
         const PanelSeam& seam = set.seams[i];
         if (seam.is_rim()) continue;
         std::vector<double> cuts{0};
-        for (double f : seam.notch) cuts.push_back(f * seam.rest_length);
+        for (double f : seam.notch_rest) cuts.push_back(f * seam.rest_length);
         cuts.push_back(seam.rest_length);
         for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
             Stretch stretch;
@@ -236,6 +236,7 @@ double match_seams(PanelSet& set, const Segmentation& s, const std::vector<std::
 void measure_seams(PanelSet& set, const Segmentation& s) {
     for (PanelSeam& seam : set.seams) {
         seam.mismatch = seam.local_mismatch = 0;
+        seam.notch.clear();
         for (SeamSide& side : seam.side) {
             side.length = 0;
             for (std::size_t k = 0; k + 1 < side.vertex.size(); ++k)
@@ -244,11 +245,14 @@ void measure_seams(PanelSet& set, const Segmentation& s) {
         if (!seam.is_rim())
             seam.mismatch = std::abs(seam.side[0].length - seam.side[1].length) / std::max(seam.side[0].length, seam.side[1].length);
     }
+    std::vector<double> reached(set.seams.size(), 0);   // flat length of side 0 up to the end of the stretch
     for (const Stretch& stretch : stretches(set, rest_edge_lengths(set, s))) {
         PanelSeam& seam = set.seams[stretch.seam];
         const double a = stretch_length(stretch, seam.side[0], set.panels[seam.side[0].panel].u);
         const double b = stretch_length(stretch, seam.side[1], set.panels[seam.side[1].panel].u);
         seam.local_mismatch = std::max(seam.local_mismatch, std::abs(a - b) / std::max(a, b));
+        reached[stretch.seam] += a;
+        if (seam.notch.size() < seam.notch_rest.size()) seam.notch.push_back(reached[stretch.seam] / seam.side[0].length);
     }
 }
 

@@ -17,7 +17,7 @@ namespace formwork {
 /// @returns the largest |c_j| over the longer side, after the solve
 double match_seams(PanelSet& set, const Segmentation& s, const std::vector<std::vector<Matrix2d>>& shapes);
 
-/// Sets length, mismatch and local_mismatch of every seam from the flat coordinates.
+/// Sets length, mismatch, local_mismatch and notch of every seam from the flat coordinates.
 void measure_seams(PanelSet& set, const Segmentation& s);
 
 }  // namespace formwork

@@ -1,0 +1,58 @@
+#include <algorithm>
+
+#include "formwork/panels/marks.hpp"
+#include "formwork/panels/polygon.hpp"
+
+namespace formwork {
+namespace {
+
+constexpr double mm = 1000;            // per metre
+constexpr double stroke_spacing = 3;   // mm between the strokes of a double or triple notch
+constexpr double bar = 2;              // mm, half the bar of a T and half the mouth of a V
+
+/// One stroke at `edge` (on the cut line), `depth` towards the sew line.
+std::vector<Line> stroke(NotchShape shape, const Vector2d& edge, const Vector2d& inward, const Vector2d& along, double depth) {
+    const Vector2d tip = edge + depth * inward;
+    if (shape == NotchShape::vee) return {{edge - bar * along, tip, edge + bar * along}};
+    if (shape == NotchShape::tee) return {{edge, tip}, {tip - bar * along, tip + bar * along}};
+    return {{edge, tip}};
+}
+
+}  // namespace
+
+void add_notches(const PanelSet& set, PatternPiece& piece) {
+    for (std::size_t i = 0; i < set.seams.size(); ++i) {
+        const PanelSeam& seam = set.seams[i];
+        const double allowance = allowance_mm(set, static_cast<int>(i));
+        for (int side : {0, 1}) {
+            if (seam.is_rim() || seam.side[side].panel != piece.panel) continue;
+            Line chain;
+            for (const Vector2d& u : flat_chain(set, seam.side[side])) chain.push_back(mm * u);
+            for (std::size_t k = 0; k < seam.notch.size(); ++k) {
+                const ChainPoint p = chain_point(chain, seam.notch[k]);
+                // The piece lies left of the chain on side 0 and right of it on side 1.
+                const Vector2d out = (side == 0 ? 1.0 : -1.0) * Vector2d(p.tangent.y(), -p.tangent.x());
+                const auto reach = ray_to_outline(piece.cut, p.at, out);
+                NotchMark mark;
+                mark.seam = static_cast<int>(i);
+                mark.sew = p.at;
+                mark.cut = p.at + std::min(reach.value_or(allowance), 3 * allowance + 1) * out;
+                const double room = (mark.cut - mark.sew).norm();
+                const NotchStyle style = k == 0 ? notch_style(seam.style) : NotchStyle{};
+                // A slit must not reach the sew line; without allowance the mark is drawn inside the piece.
+                const double depth = room > 1 ? std::min(set.params.notch_length_mm, 0.6 * room) : set.params.notch_length_mm;
+                for (int s = 0; s < style.strokes; ++s) {
+                    const Vector2d shift = (s - (style.strokes - 1) / 2.0) * stroke_spacing * p.tangent;
+                    const Vector2d foot = p.at + shift;
+                    const double lift = std::min(ray_to_outline(piece.cut, foot, out).value_or(room), room + 2);
+                    for (Line& line : stroke(style.shape, room > 1 ? Vector2d(foot + lift * out) : foot, -out, p.tangent, depth))
+                        mark.strokes.push_back(std::move(line));
+                }
+                mark.strokes.push_back({p.at - 1.5 * out, p.at + std::min(1.5, 0.2 * room) * out});   // tick on the sew line
+                piece.notches.push_back(std::move(mark));
+            }
+        }
+    }
+}
+
+}  // namespace formwork

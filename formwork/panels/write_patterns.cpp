@@ -1,0 +1,28 @@
+#include <memory>
+
+#include "arcsim/base/files.hpp"
+#include "arcsim/mesh/obj_io.hpp"
+#include "formwork/panels/pattern_files.hpp"
+#include "formwork/panels/sewn_rest.hpp"
+
+namespace formwork {
+
+PatternFiles write_patterns(const PanelSet& set, const Segmentation& s, const Pattern& pattern, const std::filesystem::path& folder) {
+    const std::vector<std::pair<std::string, std::string>> texts{
+        {"panels.svg", pattern_svg(pattern)},
+        {"panels.csv", panels_csv(set, pattern)},
+        {"seams.csv", seams_csv(set, pattern)},
+        {"seams.json", seams_json(set, s, pattern)},
+        {"bom.csv", bom_csv(set, pattern)},
+        {"sewn_rest.obj", arcsim::format_obj(sewn_rest(set, s))}};
+    PatternFiles files;
+    for (const auto& [name, text] : texts) {
+        arcsim::write_file_atomically(folder / name, text);
+        files.names.push_back(name);
+    }
+    files.utilisation = pattern.nest.utilisation;
+    files.roll_length_m = pattern.nest.length / 1000;
+    return files;
+}
+
+}  // namespace formwork
