@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <fstream>
+#include <stdexcept>
 
-#include "arcsim/base/error.hpp"
+#include "arcsim/base/files.hpp"
 
 namespace formwork {
 namespace {
@@ -58,29 +57,8 @@ std::string encode_png(const Image& image) {
     return bytes;
 }
 
-void write_file(const std::filesystem::path& path, const std::string& bytes) {
-    const std::filesystem::path temporary = path.string() + ".tmp";
-    const auto refuse = [&] {
-        const std::string why = std::strerror(errno);
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        throw arcsim::InputError(path.string() + ": cannot be written (" + why +
-                                 "). Give an output folder that exists, is writable and has room.");
-    };
-    {
-        std::ofstream out(temporary, std::ios::binary);
-        if (!out) refuse();
-        out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-        out.close();
-        if (!out) refuse();
-    }
-    std::error_code failed;
-    std::filesystem::rename(temporary, path, failed);
-    if (failed) refuse();
-}
-
 void write_png(const std::filesystem::path& path, const Image& image) {
-    write_file(path, encode_png(image));
+    arcsim::write_file_atomically(path, encode_png(image));
 }
 
 }  // namespace formwork

@@ -24,9 +24,7 @@ struct Image {
 /// The bytes of a PNG file (8 bit RGB). @throws std::runtime_error when libpng fails
 std::string encode_png(const Image& image);
 
-/// Writes under a temporary name and renames, so that an earlier file survives a failure.
-/// @throws arcsim::InputError when the place cannot be written
-void write_file(const std::filesystem::path& path, const std::string& bytes);
+/// @throws arcsim::InputError when the place cannot be written; an earlier file survives
 void write_png(const std::filesystem::path& path, const Image& image);
 
 }  // namespace formwork

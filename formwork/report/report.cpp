@@ -2,8 +2,8 @@
 
 #include <string_view>
 
+#include "arcsim/base/files.hpp"
 #include "formwork/report/embedded_files.hpp"
-#include "formwork/report/image.hpp"
 #include "formwork/report/report_data.hpp"
 
 namespace formwork {
@@ -76,7 +76,7 @@ std::string compose_report(const ReportInput& input) {
 }
 
 void write_report(const ReportInput& input, const std::filesystem::path& path) {
-    write_file(path, compose_report(input));
+    arcsim::write_file_atomically(path, compose_report(input));
 }
 
 }  // namespace formwork

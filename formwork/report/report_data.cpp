@@ -13,7 +13,7 @@
 namespace formwork {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;   // figures keep the order in which the stages wrote them
 
 std::string css(const Rgb& c) {
     char text[16];

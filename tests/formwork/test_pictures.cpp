@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "arcsim/base/error.hpp"
 #include "formwork/report/pictures.hpp"
 #include "tests/formwork/synthetic_bag.hpp"
 

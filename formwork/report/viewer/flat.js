@@ -39,7 +39,7 @@ const Flat = (() => {
     const at = roomiest(d), x = at.x + dx, y = at.y + dy, a = Math.min(0.18 * d.h, 2.2 * letter), head = 0.3 * letter;
     const line = (x1, y1, x2, y2) => svg('line', {x1, y1, x2, y2});
     return svg('g', {class: 'piece', 'data-panel': panel.id, tabindex: 0, role: 'button', 'aria-label': `Panel ${panel.id + 1}`},
-        svg('path', {d: path, fill: panel.colour, 'fill-opacity': 0.72}),
+        svg('path', {d: path, fill: `color-mix(in srgb, ${panel.colour} 72%, white)`}),
         svg('text', {x: x - 0.15 * letter, y: y + 0.36 * letter, 'font-size': letter, 'text-anchor': 'end'}, String(panel.id + 1)),
         line(x + 0.35 * letter, y + a, x + 0.35 * letter, y - a), line(x + 0.35 * letter, y - a, x + 0.35 * letter - head, y - a + head),
         line(x + 0.35 * letter, y - a, x + 0.35 * letter + head, y - a + head));

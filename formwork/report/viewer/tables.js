@@ -73,7 +73,7 @@ const Page = (() => {
         rows(v, body, name);
       } else if (!Array.isArray(v) || (v.length && v.length < 12 && typeof v[0] !== 'object')) {
         body.append(element('tr', {title: key}, element('td', {}, name),
-                            element('td', {class: 'number'}, (value(v, about) + ' ' + about.unit).trim())));
+                            element('td', {class: 'number'}, (value(v, about) + (about.unit ? '\u00a0' + about.unit : '')))));
       }
     }
   }
@@ -110,12 +110,12 @@ const Page = (() => {
     pick(last, 'volume_m3', 'liquid to mix', 1e3, 'litres');
     pick(last, 'liquid_mass_kg', 'its mass', 1, 'kg');
     pick(last, 'depth_m', 'depth', 1e3, 'mm');
-    pick('inflate', 'max_stretch', 'largest stretch, inflated', 1, '', 4);
+    pick('inflate', 'max_stretch', 'largest stretch', 1, '', 4);
     pick('segment', 'panels', 'panels');
     pick('panels', 'cloth_area_m2', 'cloth', 1, 'm\u00b2');
     pick('segment', 'seam_length_m', 'seams', 1, 'm');
-    pick('sew', 'mean_abs_shear', 'mean shear of the weave', 100, '%');
-    pick('sew', 'shape_rms_m', 'RMS deviation from the cut surface', 1e3, 'mm');
+    pick('sew', 'mean_abs_shear', 'mean shear, sewn', 100, '%');
+    pick('sew', 'shape_rms_m', 'off the cut surface', 1e3, 'mm');
   }
 
   function convergencePlots(curves) {
@@ -151,7 +151,7 @@ const Page = (() => {
     document.getElementById('pictures').hidden = false;
     for (const p of list)
       document.getElementById('picture-list').append(element('figure', {},
-          element('img', {src: 'data:image/png;base64,' + p.png, alt: p.title, loading: 'lazy'}),
+          element('img', {src: 'data:image/png;base64,' + p.png, alt: p.title}),
           element('figcaption', {}, p.caption || p.title)));
   }
 

@@ -218,7 +218,7 @@ const View = (() => {
       const north = up.clone().cross(east), a = -55 * Math.PI / 180, h = 16 * Math.PI / 180;
       const back = east.multiplyScalar(Math.cos(a)).addScaledVector(north, Math.sin(a)).multiplyScalar(Math.cos(h)).addScaledVector(up, Math.sin(h));
       const half = Math.tan(camera.fov * Math.PI / 360) * Math.min(1, camera.aspect);
-      const distance = 0.92 * radius / half;
+      const distance = 1.02 * radius / half;
       camera.near = 0.02 * radius;
       camera.far = 20 * radius;
       controls.target.copy(middle);
