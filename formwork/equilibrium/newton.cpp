@@ -1,0 +1,206 @@
+#include "formwork/equilibrium/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace formwork {
+
+using arcsim::cpu_seconds;
+using arcsim::PcgStatus;
+using arcsim::SolverKind;
+
+namespace {
+
+constexpr int pcg_limit = 40;            // beyond, a new factor is cheaper
+constexpr int pcg_refactor_next = 8;     // beyond, the next step gets a new factor
+constexpr double fade_below = 1e-6;      // of T*: smaller regularisations are set to nothing
+constexpr double wake_at = 1e-4;         // of T*: the first one tried where the tangent is not definite
+constexpr double largest_step = 1. / 3;  // of R per Newton step
+constexpr int most_halvings = 12;
+constexpr double runaway_stretch = 12;   // far beyond any table; a bag that large has no equilibrium
+
+SolverKind kind_of(LinearSolverChoice c) {
+    switch (c) {
+        case LinearSolverChoice::umfpack: return SolverKind::umfpack;
+        case LinearSolverChoice::eigen: return SolverKind::eigen_ldlt;
+        case LinearSolverChoice::cholmod: break;
+    }
+    return SolverKind::cholmod;
+}
+
+struct Stopwatch {
+    double& sum;
+    double start = cpu_seconds();
+    explicit Stopwatch(double& s) : sum(s) {}
+    ~Stopwatch() { sum += cpu_seconds() - start; }
+};
+
+}  // namespace
+
+NewtonSolver::NewtonSolver(StaticSystem& system, const SolverParams& params,
+                           std::function<void(const IterationReport&)> on_iteration)
+    : system_(system), params_(params), on_iteration_(std::move(on_iteration)),
+      solver_(arcsim::make_linear_solver(kind_of(params.linear_solver))), H_(system.pattern()),
+      limit_(params.max_iterations), T_ref_(system.scales().tension) {
+    solver_->analyze(system.pattern());
+    times_.symbolic = solver_->cost().symbolic_s;
+    times_.ordering = system.ordering_s();
+}
+
+/// Factorises the tangent, raising T0 until it is positive definite.
+bool NewtonSolver::factorize_regularised(double& T0) {
+    for (int attempt = 0; attempt < 12; ++attempt) {
+        bool ok;
+        {
+            Stopwatch watch(times_.numeric);
+            ok = solver_->try_factorize(H_);
+        }
+        if (ok) {
+            factor_is_stale_ = false;
+            return true;
+        }
+        const double raised = std::max(10 * T0, wake_at * T_ref_);
+        system_.add_laplacian(raised - T0, H_);
+        T0 = raised;
+    }
+    return false;
+}
+
+/// d = -(H + border border^T)^-1 g.
+bool NewtonSolver::direction(double& T0, double relative) {
+    rhs_ = -g_;
+    system_.fixed().clear(rhs_);
+    const auto multiply = [&](const VectorXd& v, VectorXd& y) {
+        H_.multiply_symmetric(v, y);
+        if (border_.size() > 0) y += border_ * border_.dot(v);
+    };
+    const double eta = std::clamp(relative * relative, 1e-3, 0.1);
+    for (int attempt = 0; attempt < 8; ++attempt) {
+        const bool fresh = factor_is_stale_;
+        if (fresh && !factorize_regularised(T0)) return false;
+        arcsim::PcgOutcome out;
+        {
+            Stopwatch watch(times_.solve);
+            out = pcg_.solve(multiply, *solver_, rhs_, eta, pcg_limit, d_);
+        }
+        if (out.status == PcgStatus::converged) {
+            factor_is_stale_ = out.iterations > pcg_refactor_next;
+            return true;
+        }
+        factor_is_stale_ = true;
+        if (!fresh) continue;
+        if (out.status == PcgStatus::out_of_iterations) return true;   // a poor but descending direction
+        const double raised = std::max(10 * T0, wake_at * T_ref_);
+        system_.add_laplacian(raised - T0, H_);
+        T0 = raised;
+    }
+    return false;
+}
+
+/// Noise of the residual: what a change of every coordinate by half a unit in its last place does to the forces.
+double NewtonSolver::rounding_floor(const VectorXd& x, double load) {
+    constexpr double half_ulp = std::numeric_limits<double>::epsilon() / 2;
+    VectorXd noise(x.size()), force;
+    unsigned state = 12345;
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+        state = 1664525u * state + 1013904223u;
+        noise[i] = half_ulp * x[i] * (2.0 * state / 4294967295.0 - 1);
+    }
+    system_.fixed().clear(noise);
+    H_.multiply_symmetric(noise, force);
+    system_.fixed().clear(force);
+    return force.norm() / load;
+}
+
+void NewtonSolver::report(const std::string& phase, double residual, double step, const VectorXd& x) {
+    IterationReport r;
+    r.iteration = iterations_;
+    r.residual = residual;
+    r.factorizations = factorizations();
+    r.step = step;
+    r.max_stretch = system_.membrane().stretch_range(x)[0];
+    r.phase = phase;
+    history_.push_back(r);
+    if (on_iteration_) on_iteration_(r);
+}
+
+NewtonOutcome NewtonSolver::solve(VectorXd& x, double tolerance, double T0, const std::string& phase) {
+    Stopwatch total(times_.total);
+    NewtonOutcome out;
+    const double R = system_.scales().radius;
+    StaticSystem::Balance now;
+    {
+        Stopwatch watch(times_.line_search);
+        now = system_.gradient(x, g_);
+    }
+    // Until the liquid has found its place the load may be next to nothing: measure against the expected one.
+    const double expected = system_.has_load() ? 1e-6 * system_.load_factor() * system_.scales().pressure *
+                                                     system_.scales().area / std::sqrt(double(x.size()) / 3)
+                                               : 1e-300;
+    const auto relative = [&](const StaticSystem::Balance& b) { return b.residual / std::max(b.load, expected); };
+    double step = 1;
+    int slow = 0;
+    for (;; ++iterations_) {
+        out.residual = relative(now);
+        report(phase, out.residual, step, x);
+        if (!std::isfinite(out.residual)) {
+            out.status = NewtonStatus::runaway;
+            return out;
+        }
+        if (out.residual <= tolerance) {
+            out.status = NewtonStatus::converged;
+            return out;
+        }
+        if (history_.back().max_stretch > runaway_stretch) {
+            out.status = NewtonStatus::runaway;
+            return out;
+        }
+        if (iterations_ >= limit_) {
+            out.status = NewtonStatus::out_of_iterations;
+            return out;
+        }
+        if (T0 < fade_below * T_ref_) T0 = 0;
+        {
+            Stopwatch watch(times_.assembly);
+            system_.tangent(x, T0, H_, border_, arcsim::Tangent::exact);
+        }
+        if (out.residual < 1e-5) {
+            out.rounding_floor = rounding_floor(x, std::max(now.load, expected));
+            // At the floor, and no longer falling: rounding, not lack of convergence.
+            if (slow >= 2 && out.residual < 4 * out.rounding_floor) {
+                out.status = NewtonStatus::rounding_floor;
+                return out;
+            }
+        }
+        if (!direction(T0, out.residual)) {
+            out.status = NewtonStatus::stalled;
+            return out;
+        }
+        Stopwatch watch(times_.line_search);
+        const double longest = d_.lpNorm<Eigen::Infinity>();
+        if (longest > largest_step * R) d_ *= largest_step * R / longest;
+        // Along d the fabric pulls forward at first (slope > 0); a step may overshoot until it pulls back by half.
+        const double slope = -d_.dot(g_);
+        step = 1;
+        VectorXd trial;
+        StaticSystem::Balance there;
+        for (int halving = 0;; ++halving, step *= 0.5) {
+            trial = x + step * d_;
+            there = system_.gradient(trial, trial_g_);
+            const double pull = -d_.dot(trial_g_);
+            if (std::isfinite(pull) && pull >= -0.5 * slope) break;
+            if (halving == most_halvings) break;
+        }
+        slow = there.residual > 0.5 * now.residual ? slow + 1 : 0;
+        x = trial;
+        std::swap(g_, trial_g_);
+        now = there;
+        if (step >= 0.9) T0 /= 10;
+        else if (step >= 0.4) T0 /= 2;
+        else if (step >= 0.15) T0 = std::max(2 * T0, wake_at * T_ref_);
+        else T0 = std::max(8 * T0, wake_at * T_ref_);
+    }
+}
+
+}  // namespace formwork

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "arcsim/solve/linear_solver.hpp"
+#include "arcsim/solve/pcg.hpp"
+#include "formwork/equilibrium/static_system.hpp"
+
+namespace formwork {
+
+enum class NewtonStatus { converged, rounding_floor, runaway, stalled, out_of_iterations };
+
+struct NewtonOutcome {
+    NewtonStatus status = NewtonStatus::out_of_iterations;
+    double residual = 0;         // relative
+    double rounding_floor = 0;   // estimate, relative
+    bool ok() const { return status == NewtonStatus::converged || status == NewtonStatus::rounding_floor; }
+};
+
+/// Newton's method on the equilibrium, globalised (tension_field.md 5):
+///
+///   - the tangent is exact; T0 times the rest shape's Laplacian is added while the shape is far off and fades by
+///     itself, so that the last steps are quadratic. T0 starts at the final load's tension T* = p R: a flat sheet then
+///     bulges smoothly at once;
+///   - the linear system is solved by conjugate gradients on an older factor; a new factor is made only when those need
+///     too many iterations or meet negative curvature;
+///   - a step is halved until the force along it no longer pulls back by more than half: no energy is needed, so laws
+///     without potential are welcome.
+class NewtonSolver {
+public:
+    NewtonSolver(StaticSystem& system, const SolverParams& params,
+                 std::function<void(const IterationReport&)> on_iteration);
+
+    /// @param x    start and result; when not ok, the best state found
+    /// @param T0   initial regularisation, N/m; 0 near a solution
+    NewtonOutcome solve(VectorXd& x, double tolerance, double T0, const std::string& phase);
+
+    int iterations() const { return iterations_; }
+    int factorizations() const { return solver_->cost().factorizations; }
+    const std::vector<IterationReport>& history() const { return history_; }
+    const SolverTimes& times() const { return times_; }
+    const arcsim::LinearSolver& linear_solver() const { return *solver_; }
+    void allow_iterations(int more) { limit_ = iterations_ + more; }
+
+private:
+    bool direction(double& T0, double relative);
+    bool factorize_regularised(double& T0);
+    double rounding_floor(const VectorXd& x, double load);
+    void report(const std::string& phase, double residual, double step, const VectorXd& x);
+
+    StaticSystem& system_;
+    SolverParams params_;
+    std::function<void(const IterationReport&)> on_iteration_;
+    std::unique_ptr<arcsim::LinearSolver> solver_;
+    arcsim::FactorPcg pcg_;
+    BlockMatrix H_;
+    VectorXd border_, g_, d_, trial_g_, rhs_;
+    bool factor_is_stale_ = true;
+    int iterations_ = 0, limit_;
+    double T_ref_;
+    SolverTimes times_;
+    std::vector<IterationReport> history_;
+};
+
+}  // namespace formwork

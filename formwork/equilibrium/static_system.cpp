@@ -1,0 +1,222 @@
+#include "formwork/equilibrium/static_system.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "arcsim/solve/fill_order.hpp"
+#include "arcsim/solve/linear_solver.hpp"
+
+namespace formwork {
+namespace {
+
+void check_sizes(const EquilibriumProblem& p) {
+    using arcsim::InputError;
+    const std::size_t n = p.rest.x.size(), m = p.rest.faces.size();
+    if (m == 0) throw InputError("equilibrium: the mesh has no faces");
+    if (!p.start.empty() && p.start.size() != n)
+        throw InputError("equilibrium: the start has " + std::to_string(p.start.size()) + " nodes, the mesh " +
+                         std::to_string(n));
+    if (!p.flat.empty() && p.flat.size() != m)
+        throw InputError("equilibrium: rest coordinates for " + std::to_string(p.flat.size()) + " faces, the mesh has " +
+                         std::to_string(m));
+    if (!p.fixed.empty() && p.fixed.size() != 3 * n)
+        throw InputError("equilibrium: " + std::to_string(p.fixed.size()) + " hold flags for " + std::to_string(3 * n) +
+                         " degrees of freedom");
+}
+
+/// Nodes without faces take part in nothing: held where they are.
+std::vector<char> hold_flags(const EquilibriumProblem& p) {
+    std::vector<char> held = p.fixed.empty() ? std::vector<char>(3 * p.rest.x.size(), 0) : p.fixed;
+    std::vector<char> used(p.rest.x.size(), 0);
+    for (const Triangle& t : p.rest.faces)
+        for (int c = 0; c < 3; ++c) used[t[c]] = 1;
+    for (const SeamSpring& s : p.seams) used[s.i] = used[s.j] = 1;
+    for (std::size_t i = 0; i < used.size(); ++i)
+        if (!used[i]) held[3 * i] = held[3 * i + 1] = held[3 * i + 2] = 1;
+    return held;
+}
+
+/// Mean height of the nodes held in all axes; of any held ones when there are none.
+double mean_held_height(const std::vector<char>& fixed, const VectorXd& x, const Vector3d& up) {
+    for (int needed : {3, 1}) {
+        double sum = 0;
+        int n = 0;
+        for (int i = 0; 3 * i < static_cast<int>(fixed.size()); ++i)
+            if ((fixed[3 * i] != 0) + (fixed[3 * i + 1] != 0) + (fixed[3 * i + 2] != 0) >= needed)
+                sum += x.segment<3>(3 * i).dot(up), ++n;
+        if (n > 0) return sum / n;
+    }
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
+double second_half_width(const Surface& s, double area) {
+    Vector3d mean = Vector3d::Zero();
+    arcsim::Matrix3d second = arcsim::Matrix3d::Zero();
+    for (int f = 0; f < s.n_faces(); ++f) {
+        const Vector3d c = face_centroid(s, f);
+        const double A = face_area(s, f);
+        mean += A * c;
+        second += A * c * c.transpose();
+    }
+    mean /= area;
+    second = second / area - mean * mean.transpose();
+    // A uniform square of half width R has the variance R²/3 along each side.
+    const Vector3d variance = Eigen::SelfAdjointEigenSolver<arcsim::Matrix3d>(second).eigenvalues();
+    return std::sqrt(3 * std::max(variance[1], 0.0));
+}
+
+}  // namespace
+
+VectorXd flatten(const std::vector<Vector3d>& x) {
+    VectorXd v(3 * static_cast<Eigen::Index>(x.size()));
+    for (std::size_t i = 0; i < x.size(); ++i) v.segment<3>(3 * static_cast<Eigen::Index>(i)) = x[i];
+    return v;
+}
+
+std::vector<Vector3d> unflatten(const VectorXd& x) {
+    std::vector<Vector3d> v(x.size() / 3);
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] = x.segment<3>(3 * static_cast<Eigen::Index>(i));
+    return v;
+}
+
+StaticSystem::StaticSystem(const EquilibriumProblem& p) : seams_(p.seams) {
+    check_sizes(p);
+    const int n = p.rest.n_nodes();
+    std::vector<std::array<int, 2>> pairs;
+    seams_.list_pairs(pairs);
+    const double start = arcsim::cpu_seconds();
+    pattern_ = std::make_unique<arcsim::BlockPattern>(n, p.rest.faces, pairs,
+                                                      arcsim::fill_order(n, p.rest.faces, pairs));
+    ordering_s_ = arcsim::cpu_seconds() - start;
+    fixed_ = arcsim::FixedDofs(*pattern_, hold_flags(p));
+    membrane_ = std::make_unique<MembraneForce>(p.rest.faces, p.flat.empty() ? rest_in_own_planes(p.rest) : p.flat,
+                                                std::shared_ptr<MembraneLaw>(make_membrane_law(p.material)));
+    pressure_ = std::make_unique<PressureForce>(p.rest.faces, p.up, p.plaster.density * p.plaster.gravity,
+                                                p.plaster.overpressure, p.pressure, p.pressure_jacobian);
+    membrane_->bind(*pattern_);
+    pressure_->bind(*pattern_);
+    seams_.bind(*pattern_);
+
+    weight_.setZero(3 * n);
+    has_weight_ = p.self_weight && p.fabric_density > 0;
+    if (has_weight_)
+        for (int f = 0; f < p.rest.n_faces(); ++f)
+            for (int c = 0; c < 3; ++c)
+                weight_.segment<3>(3 * p.rest.faces[f][c]) -=
+                    p.fabric_density * p.plaster.gravity * membrane_->rest_area(f) / 3 * p.up.normalized();
+
+    has_liquid_ = p.plaster.density > 0 && p.plaster.fill.has_value();
+    has_load_ = has_liquid_ || p.plaster.overpressure != 0 || has_weight_;
+    set_fill(p, flatten(p.start.empty() ? p.rest.x : p.start));
+}
+
+void StaticSystem::set_fill(const EquilibriumProblem& p, const VectorXd& start) {
+    const VectorXd rest = flatten(p.rest.x);
+    const Vector3d d = p.up.normalized();
+    rim_height_ = mean_held_height(p.fixed, start, d);
+    double lowest = 1e300, highest = -1e300;
+    for (const Vector3d& q : p.rest.x) {
+        lowest = std::min(lowest, q.dot(d));
+        highest = std::max(highest, q.dot(d));
+    }
+    const double top = std::isfinite(rim_height_) ? rim_height_ : highest;
+    double level = std::numeric_limits<double>::quiet_NaN();
+    if (has_liquid_) {
+        const FillParams& fill = *p.plaster.fill;
+        if (fill.level) level = *fill.level;
+        if (fill.depth_below_rim) {
+            if (!std::isfinite(rim_height_))
+                throw arcsim::InputError("/formwork/plaster/fill/depth_below_rim: no node is held, so there is no rim. "
+                                         "Hold the rim under /formwork/fixed, or give the level");
+            level = rim_height_ - *fill.depth_below_rim;
+        }
+        // Outward is decided once, on the rest shape.
+        pressure_->set_orientation(liquid_orientation(p.rest.faces, rest, d, std::isfinite(level) ? level : top));
+        if (fill.volume) target_volume_ = *fill.volume;
+        if (fill.fraction) {
+            const double capacity = pressure_->totals(rest, top).volume;
+            const double size = highest - lowest;
+            if (!(capacity > 1e-9 * size * size * size) || size == 0)
+                throw arcsim::InputError("/formwork/plaster/fill/fraction: the rest shape encloses no volume, so there is "
+                                         "nothing to take a fraction of. Give the volume or the level");
+            target_volume_ = *fill.fraction * capacity;
+        }
+        if (level_is_unknown()) level = top;
+        pressure_->set_level(level);
+        if (level_is_unknown()) update_level(rest);
+    } else {
+        pressure_->set_level(-1e300);
+    }
+    pressure_->set_reference(top);
+
+    scales_.area = membrane_->total_rest_area();
+    scales_.radius = second_half_width(p.rest, total_area(p.rest));
+    if (!(scales_.radius > 0)) scales_.radius = std::sqrt(scales_.area);
+    const double liquid_level = has_liquid_ ? pressure_->level() : 0;
+    // A flat sheet sags by about half its half width; a bag is at least as deep as its rest shape.
+    if (has_liquid_)
+        scales_.pressure = pressure_->rho_g() * std::max(liquid_level - lowest,
+                                                         std::max(0.0, liquid_level - top) + 0.5 * scales_.radius);
+    scales_.pressure += std::abs(p.plaster.overpressure);
+    if (has_weight_) scales_.pressure = std::max(scales_.pressure, p.fabric_density * p.plaster.gravity);
+    scales_.tension = scales_.pressure * scales_.radius;
+    if (!has_load_) scales_.tension = 1e-3 * membrane_->law().rest_stiffness();
+}
+
+void StaticSystem::set_load_factor(double s) {
+    load_factor_ = s;
+    pressure_->set_scale(s);
+}
+
+void StaticSystem::update_level(const VectorXd& x) {
+    if (level_is_unknown()) pressure_->set_level(level_of_volume(*pressure_, x, target_volume_, pressure_->level()));
+}
+
+StaticSystem::Balance StaticSystem::gradient(const VectorXd& x, VectorXd& g) {
+    update_level(x);
+    state_.x = x;
+    g = -load_factor_ * weight_;
+    pressure_->add_gradient(state_, g);
+    Balance b;
+    const auto free_norm = [&](const VectorXd& v) {
+        double sum = 0;
+        for (Eigen::Index d = 0; d < v.size(); ++d) sum += fixed_[static_cast<int>(d)] ? 0 : v[d] * v[d];
+        return std::sqrt(sum);
+    };
+    b.load = free_norm(g);
+    membrane_->add_gradient(state_, g);
+    seams_.add_gradient(state_, g);
+    b.residual = free_norm(g);
+    if (!has_load_) {
+        double sum = 0;
+        for (int d : fixed_.list()) sum += g[d] * g[d];
+        b.load = std::sqrt(sum);
+    }
+    return b;
+}
+
+void StaticSystem::tangent(const VectorXd& x, double T0, BlockMatrix& H, VectorXd& border, arcsim::Tangent kind) {
+    state_.x = x;
+    H.set_zero();
+    membrane_->add_hessian(state_, kind, H);
+    seams_.add_hessian(state_, kind, H);
+    pressure_->add_hessian(state_, kind, H);
+    if (T0 > 0) membrane_->add_laplacian(T0, H);
+    H.fix(fixed_);
+    border.resize(0);
+    if (!level_is_unknown()) return;
+    const double waterplane = pressure_->totals(x, pressure_->level()).waterplane;
+    if (!(waterplane > 0)) return;
+    pressure_->level_derivative(x, border);
+    fixed_.clear(border);
+    border /= std::sqrt(pressure_->rho_g() * waterplane);
+}
+
+void StaticSystem::add_laplacian(double T0, BlockMatrix& H) const {
+    membrane_->add_laplacian(T0, H);
+    H.fix(fixed_);
+}
+
+}  // namespace formwork

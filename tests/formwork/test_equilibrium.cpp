@@ -1,0 +1,102 @@
+#include <catch2/catch.hpp>
+
+#include "formwork/equilibrium/equilibrium.hpp"
+#include "shapes.hpp"
+
+using namespace formwork;
+
+namespace {
+
+EquilibriumProblem filled(const shapes::Bag& bag, double level) {
+    EquilibriumProblem p;
+    p.rest = bag.surface;
+    p.fixed = bag.held;
+    p.plaster.density = 1500;
+    p.plaster.fill = FillParams{};
+    p.plaster.fill->level = level;
+    p.self_weight = false;
+    return p;
+}
+
+double largest_difference(const EquilibriumResult& a, const EquilibriumResult& b) {
+    double d = 0;
+    for (std::size_t i = 0; i < a.x.size(); ++i) d = std::max(d, (a.x[i] - b.x[i]).norm());
+    return d;
+}
+
+}  // namespace
+
+TEST_CASE("a flat disk filled to its rim sags, carries the liquid's weight and stays taut") {
+    EquilibriumProblem p = filled(shapes::disk(0.15, 10), 0);
+    p.fabric_density = 0.2;
+    p.self_weight = true;
+    const EquilibriumResult r = find_equilibrium(p);
+    REQUIRE(r.converged);
+    REQUIRE(r.residual < 1e-8);
+    REQUIRE(r.wrinkled_faces == 0);
+    REQUIRE(r.regularisation.prestress == 0);
+    const double weight = 9.81 * (1500 * r.volume_m3 + 0.2 * total_area(p.rest));
+    REQUIRE(r.support_force_N[2] == Approx(weight).epsilon(1e-7));
+    REQUIRE(r.support_force_N.head<2>().norm() < 1e-7 * weight);
+    REQUIRE(r.volume_m3 == Approx(r.capacity_m3).epsilon(1e-12));
+    REQUIRE(r.depth_m == Approx(0.0697).epsilon(0.01));
+}
+
+TEST_CASE("a prescribed volume is met together with the shape, from below, at and above the rim's level") {
+    for (const double level : {-0.05, 0.0, 0.03}) {
+        EquilibriumProblem p = filled(shapes::sock(0.1, 0.15, 6), level);
+        const EquilibriumResult by_level = find_equilibrium(p);
+        p.plaster.fill->level.reset();
+        p.plaster.fill->volume = by_level.volume_m3;
+        const EquilibriumResult by_volume = find_equilibrium(p);
+        INFO("level " << level);
+        REQUIRE(by_volume.fill_level_m == Approx(level).margin(1e-8));
+        REQUIRE(largest_difference(by_level, by_volume) < 1e-7);
+        REQUIRE(by_volume.volume_m3 == Approx(by_level.volume_m3).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("a wrinkled bag ends in one shape from every start, and says what the regularisation did") {
+    EquilibriumProblem p = filled(shapes::square(0.3, 24), 0.05);
+    const EquilibriumResult flat = find_equilibrium(p);
+    REQUIRE(flat.wrinkled_faces > 0);
+    REQUIRE(flat.regularisation.depth_effect < 1e-3);
+    for (const int seed : {1, 2}) {
+        p.start = p.rest.x;
+        shapes::jiggle(p.start, p.fixed, 1e-3, seed);
+        REQUIRE(largest_difference(flat, find_equilibrium(p)) < 1e-9);
+    }
+    p.start = flat.x;
+    REQUIRE(largest_difference(flat, find_equilibrium(p)) < 1e-9);
+}
+
+TEST_CASE("solutions depend on rho g a² / k alone") {
+    const EquilibriumResult small = find_equilibrium(filled(shapes::disk(0.1, 8), 0));
+    EquilibriumProblem p = filled(shapes::disk(0.2, 8), 0);
+    p.plaster.density = 1500. / 4;
+    const EquilibriumResult large = find_equilibrium(p);
+    REQUIRE(large.depth_m == Approx(2 * small.depth_m).epsilon(1e-8));
+}
+
+TEST_CASE("an equilibrium that does not exist is never returned") {
+    EquilibriumProblem p = filled(shapes::disk(0.15, 6), 0);
+    SECTION("free to move") {
+        p.fixed.assign(p.fixed.size(), 0);
+        REQUIRE_THROWS_WITH(find_equilibrium(p), Catch::Contains("free to move"));
+    }
+    SECTION("millimetres taken for metres") {
+        for (auto& q : p.rest.x) q *= 1000;
+        REQUIRE_THROWS_WITH(find_equilibrium(p), Catch::Contains("millimetres"));
+    }
+    SECTION("ballooning") {
+        p = filled(shapes::disk(0.45, 6), 0);
+        p.material.max = p.material.rest;
+        try {
+            find_equilibrium(p);
+            FAIL("found an equilibrium");
+        } catch (const EquilibriumError& e) {
+            REQUIRE_THAT(e.what(), Catch::Contains("ballooning"));
+            REQUIRE_FALSE(e.last->converged);
+        }
+    }
+}
