@@ -1,0 +1,70 @@
+#include "arcsim/scene/run_scene.hpp"
+
+#include <chrono>
+
+#include "arcsim/base/error.hpp"
+#include "arcsim/base/text.hpp"
+#include "arcsim/scene/frame_files.hpp"
+
+namespace arcsim {
+namespace {
+
+double wall_seconds() {
+    using namespace std::chrono;
+    return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+void run(const Scene& scene, Simulation& simulation, FrameFolder& folder, Progress& progress, RunStatus& status) {
+    const SceneParams& p = scene.params;
+    const double h = p.step();
+    const double frames_by_time = p.last_time() / (h * p.steps_per_frame());
+    const double n_frames = std::min({frames_by_time, p.end_frame, 9999.0});
+    int frame = status.last_frame;
+    double frame_start = wall_seconds();
+    const auto is_over = [&] { return simulation.time() >= p.last_time() || frame >= p.end_frame; };
+    while (!is_over()) {
+        ProgressState state;
+        state.step = static_cast<int>(simulation.steps());
+        state.fraction = simulation.time() / std::max(n_frames * h * p.steps_per_frame(), h);
+        state.note = "frame " + std::to_string(frame) + ", t = " + format_short(simulation.time()) + " s";
+        progress.update(state);
+        simulation.step();
+        status.steps = simulation.steps();
+        status.time = simulation.time();
+        if (const std::string warning = simulation.take_warning(); !warning.empty()) progress.warning(warning);
+        if (simulation.steps() % p.steps_per_frame() != 0) continue;
+        ++frame;
+        folder.write_frame(frame, simulation);
+        status.last_frame = frame;
+        const double now = wall_seconds();
+        folder.write_timing(now - frame_start, 0);
+        frame_start = now;
+    }
+    progress.end(std::to_string(simulation.steps()) + " steps, " + format_short(simulation.time()) + " s simulated, " +
+                 std::to_string(frame + 1) + " frames");
+}
+
+}  // namespace
+
+void run_scene(const Scene& scene, const std::filesystem::path& folder, Progress& progress, RunStatus& status) {
+    progress.begin("arcsim");
+    Simulation simulation(scene.params, scene.motions);   // before anything is written: the input may be wrong
+    FrameFolder files(folder);
+    files.begin(scene.text);
+    files.write_frame(0, simulation);
+    status.last_frame = 0;
+    run(scene, simulation, files, progress, status);
+}
+
+void resume_scene(const Scene& scene, const std::filesystem::path& folder, int frame, Progress& progress,
+                  RunStatus& status) {
+    progress.begin("arcsim");
+    Simulation simulation(scene.params, scene.motions);
+    FrameFolder files(folder);
+    if (const std::string warning = files.load_frame(frame, scene.params, simulation); !warning.empty())
+        progress.warning(warning);
+    status = {frame, simulation.steps(), simulation.time()};
+    run(scene, simulation, files, progress, status);
+}
+
+}  // namespace arcsim

@@ -1,0 +1,82 @@
+#include "arcsim/scene/simulation.hpp"
+
+#include "arcsim/base/error.hpp"
+#include "arcsim/base/text.hpp"
+#include "arcsim/solve/start_relaxation.hpp"
+
+namespace arcsim {
+
+ClothMesh RunningCloth::frame() const {
+    ClothMesh m = mesh;
+    for (int i = 0; i < m.n_nodes(); ++i) {
+        m.x[i] = state.x.segment<3>(3 * i);
+        m.v[i] = state.v.segment<3>(3 * i);
+    }
+    return m;
+}
+
+void RunningCloth::set_frame(const ClothMesh& frame) {
+    for (int i = 0; i < frame.n_nodes(); ++i) {
+        state.x.segment<3>(3 * i) = frame.x[i];
+        state.v.segment<3>(3 * i) = frame.v[i];
+    }
+}
+
+Simulation::Simulation(const SceneParams& scene, const std::vector<Motion>& motions) : scene_(scene) {
+    cloths_.resize(scene.cloths.size());   // never resized again: handles and steppers keep references
+    for (size_t c = 0; c < cloths_.size(); ++c) {
+        RunningCloth& cloth = cloths_[c];
+        cloth.mesh = place_mesh(scene.cloths[c]);
+        cloth.model = build_model(cloth.mesh, scene.cloths[c], scene);
+        cloth.handles = std::make_unique<Handles>(scene, static_cast<int>(c), cloth.mesh, motions);
+        cloth.model.springs.reserve_pairs(cloth.handles->glued_pairs());
+        cloth.stepper = make_stepper(cloth.model, scene.solver);
+        State& s = cloth.state;
+        s.x.resize(3 * cloth.mesh.n_nodes());
+        s.v = s.x;
+        cloth.set_frame(cloth.mesh);
+
+        ClothSystem& system = cloth.stepper->system();
+        if (relax_start(system, s.x) > 0) cloth.model.refresh(s.x);
+        cloth.handles->update(0, s.x, cloth.model);
+        if (relax_start(system, s.x) > 0) cloth.model.refresh(s.x);
+        cloth.lagged_x = s.x;
+    }
+}
+
+void Simulation::step() {
+    const double h = scene_.step();
+    const double new_time = time_ + h;
+    for (size_t c = 0; c < cloths_.size() && !scene_.disables("physics"); ++c) {
+        RunningCloth& cloth = cloths_[c];
+        cloth.handles->update(new_time, cloth.state.x, cloth.model);
+        cloth.state.time = new_time;
+        cloth.start_x = cloth.state.x;
+        try {
+            cloth.stepper->step(cloth.state, h);
+        } catch (const NumericalError& e) {
+            throw NumericalError("step " + std::to_string(steps_ + 1) + ", t = " + format_short(new_time, 6) + " s, cloth " +
+                                 std::to_string(c) + ": " + e.what() + ". Take smaller steps (/frame_steps), or " +
+                                 (scene_.solver.method == StepMethod::backward_euler
+                                      ? "/solver/method \"newton_euler\"."
+                                      : "raise /solver/max_halvings or /solver/max_iterations."));
+        }
+        cloth.lagged_x.swap(cloth.start_x);
+        constexpr double unlikely_stretch = 2;   // no cloth: the linearised step has overshot
+        if (!has_warned_) {
+            const auto [face, stretch] = cloth.model.stretch->largest_stretch(cloth.state.x);
+            if (stretch > unlikely_stretch) {
+                warning_ = "step " + std::to_string(steps_ + 1) + ", t = " + format_short(new_time, 6) + " s: face " +
+                           std::to_string(face) + " of cloth " + std::to_string(c) + " is stretched " + format_short(stretch) +
+                           " times. The step is too large for the linearised solve: raise /frame_steps, or use /solver/method \"newton_euler\".";
+                has_warned_ = true;
+            }
+        }
+    }
+    time_ = new_time;
+    ++steps_;
+}
+
+std::string Simulation::take_warning() { return std::exchange(warning_, {}); }
+
+}  // namespace arcsim

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+
+#include "arcsim/solve/cloth_system.hpp"
+#include "arcsim/solve/step_params.hpp"
+
+namespace arcsim {
+
+struct StepResult {
+    int iterations = 1;
+    double residual = 0;     // relative; of the converged methods
+    int halvings = 0;        // the finest division of the step
+};
+
+/// Advances one cloth in time. A stepper keeps its matrix and analysis, and what its method remembers of
+/// earlier steps.
+class ClothStepper {
+public:
+    virtual ~ClothStepper() = default;
+    /// From s.time - h to s.time: the caller has advanced s.time and put the handles where they are then.
+    /// @throws NumericalError: the numbers refused; s is as it was
+    virtual StepResult step(State& s, double h) = 0;
+    /// Forgets earlier steps: the next one stands alone.
+    virtual void restart() {}
+    /// What the method remembers beside the State, for files; empty: nothing.
+    virtual std::vector<double> memory() const { return {}; }
+    virtual void set_memory(const std::vector<double>&) {}
+    const StepCost& cost() const { return cost_; }
+    ClothSystem& system() { return system_; }
+
+protected:
+    explicit ClothStepper(ClothModel& model, FillOrder order) : system_(model, order) {}
+    /// Throws when a position is not finite or a face is beyond the limit; names the face.
+    void check_state(const VectorXd& x, double max_stretch) const;
+
+    ClothSystem system_;
+    StepCost cost_;
+};
+
+std::unique_ptr<ClothStepper> make_stepper(ClothModel& model, const StepParams& params,
+                                           FillOrder order = FillOrder::automatic);
+
+/// ArcSim's step: backward Euler linearised once from the current state,
+///
+///   (M + sum h (h + beta) H) v' = M v + h f,   x' = x + h v'
+///
+/// the same as A dv = b with b = h f - h (h + beta) H v. H: the definite tangents.
+class LinearizedEuler final : public ClothStepper {
+public:
+    LinearizedEuler(ClothModel& model, const StepParams& params, FillOrder order)
+        : ClothStepper(model, order), params_(params) {}
+    StepResult step(State& s, double h) override;
+
+private:
+    StepParams params_;
+    VectorXd f_, b_, v_;
+    std::vector<Vector3d> held_velocity_;
+};
+
+}  // namespace arcsim

@@ -1,0 +1,60 @@
+#include <cmath>
+
+#include "arcsim/base/error.hpp"
+#include "arcsim/base/text.hpp"
+#include "arcsim/solve/cloth_stepper.hpp"
+
+namespace arcsim {
+
+void ClothStepper::check_state(const VectorXd& x, double max_stretch) const {
+    const auto [face, stretch] = const_cast<ClothSystem&>(system_).model().stretch->largest_stretch(x);
+    if (face < 0 || stretch <= max_stretch) return;
+    throw NumericalError("face " + std::to_string(face) + " is stretched " + format_short(stretch) +
+                         " times (limit " + format_short(max_stretch) + ")");
+}
+
+StepResult LinearizedEuler::step(State& s, double h) {
+    ClothModel& model = system_.model();
+    BlockMatrix& A = system_.matrix();
+    const double t0 = cpu_seconds();
+    f_.setZero(s.x.size());
+    model.gravity->add_gradient(s, f_);
+    model.wind->add_gradient(s, f_);
+    f_ = -f_;
+    A.set_zero();
+    model.stretch->add_step(s, h, f_, A);
+    model.bend->add_step(s, h, f_, A);
+    model.springs.add_step(s, h, f_, A);
+    system_.add_mass();
+    b_.resize(s.x.size());
+    for (int i = 0; i < model.n_nodes(); ++i)
+        b_.segment<3>(3 * i) = model.mass[i] * s.v.segment<3>(3 * i) + h * f_.segment<3>(3 * i);
+    held_velocity_.clear();
+    for (const HeldNode& n : model.held) held_velocity_.push_back((n.target - s.x.segment<3>(3 * n.node)) / h);
+    system_.hold(b_, model.held, held_velocity_);
+    const double t1 = cpu_seconds();
+
+    LinearSolver& solver = system_.solver();
+    if (!solver.try_factorize(A))
+        throw NumericalError("the step's matrix is not positive definite at node " +
+                             std::to_string(solver.breakdown().node) +
+                             ": a material has k_uv² > k_uu k_vv, or a face is inverted");
+    const double t2 = cpu_seconds();
+    solver.solve(b_, v_);
+    const double t3 = cpu_seconds();
+
+    if (!v_.allFinite()) throw NumericalError("the step gave velocities that are not finite");
+    if (params_.max_stretch) check_state(s.x + h * v_, *params_.max_stretch);
+    model.refresh(s.x);
+    s.v = v_;
+    s.x += h * v_;
+    cost_.assembly += t1 - t0;
+    cost_.factor += t2 - t1;
+    cost_.solve += t3 - t2;
+    cost_.rest += cpu_seconds() - t3;
+    ++cost_.steps;
+    ++cost_.factorizations;
+    return {};
+}
+
+}  // namespace arcsim
