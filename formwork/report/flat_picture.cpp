@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "formwork/panels/panel_set.hpp"
 #include "formwork/report/camera.hpp"
 #include "formwork/report/legend.hpp"
 #include "formwork/report/paint.hpp"
@@ -145,7 +146,7 @@ Image picture_flat_panels(const Segmentation& segmentation, const std::vector<Fl
                      y = y0 + scale * (places[i].y + d.y() - boxes[i].y0);
         const double arrow = std::clamp(0.35 * scale * boxes[i].height(), 14.0, 90.0);
         draw_arrow(image, x + 14, y, arrow);
-        draw_text(image, x - 2, y + 8, std::to_string(panels[i].id + 1),
+        draw_text(image, x - 2, y + 8, panel_name(panels[i].id),
                   {.size_px = 24, .weight = 1.3, .anchor = Anchor::right, .halo_px = 2});
         distortion = std::max(distortion, panels[i].max_stretch_distortion);
     }

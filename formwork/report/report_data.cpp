@@ -7,13 +7,15 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "formwork/panels/panel_set.hpp"
 #include "formwork/report/base64.hpp"
 #include "formwork/report/report_fields.hpp"
+#include "formwork/report/surface_lines.hpp"
 
 namespace formwork {
 namespace {
 
-using json = nlohmann::ordered_json;   // figures keep the order in which the stages wrote them
+using json = nlohmann::ordered_json;  // figures keep the order in which the stages wrote them
 
 std::string css(const Rgb& c) {
     char text[16];
@@ -55,6 +57,12 @@ json positions(const std::vector<Vector3d>& x) {
     return axes;
 }
 
+/// As the sheets print it (panels/panel_set.hpp), which here may not have been made yet.
+std::string seam_name(const Seam& s, int number) {
+    return (s.is_rim() ? "R" : "S") + std::string(number < 9 ? "0" : "") +
+           std::to_string(number + 1);
+}
+
 json mesh(const ReportInput& in, const ReportMesh& m) {
     std::vector<std::uint32_t> corners;
     for (const arcsim::Triangle& t : m.rest.faces)
@@ -78,12 +86,16 @@ json mesh(const ReportInput& in, const ReportMesh& m) {
         out["theta"] = quantised(quarter);
         out["cross_faces"] = cross_faces(m.rest, 1800);
     }
+    out["label_faces"] = panel_label_faces(g, m.rest);
     out["seams"] = json::array();
     for (const Seam& s : g.seams) {
         double length = 0;
         for (size_t i = 0; i + 1 < s.nodes.size(); ++i)
             length += (g.mesh.x[s.nodes[i]] - g.mesh.x[s.nodes[i + 1]]).norm();
-        out["seams"].push_back({{"nodes", s.nodes}, {"panels", s.panel}, {"length", length}});
+        out["seams"].push_back({{"name", seam_name(s, static_cast<int>(out["seams"].size()))},
+                                {"nodes", s.nodes},
+                                {"panels", s.panel},
+                                {"length", length}});
     }
     out["singularities"] = json::array();
     for (const Singularity& s : g.singularities)
@@ -132,6 +144,7 @@ json panels(const ReportInput& in) {
                 {std::round(1e5 * p.u[i].x()) / 100, std::round(1e5 * p.u[i].y()) / 100});
         const bool known = p.id >= 0 && p.id < static_cast<int>(colours.size());
         out.push_back({{"id", p.id},
+                       {"name", panel_name(p.id)},
                        {"colour", css(known ? colours[p.id] : class_colour(p.id))},
                        {"outline", outline},
                        {"area", p.area},
@@ -144,7 +157,9 @@ json panels(const ReportInput& in) {
     }
     if (in.panels.empty())
         for (size_t p = 0; p < colours.size(); ++p)
-            out.push_back({{"id", p}, {"colour", css(colours[p])}});
+            out.push_back({{"id", p},
+                           {"name", panel_name(static_cast<int>(p))},
+                           {"colour", css(colours[p])}});
     return out;
 }
 
@@ -169,8 +184,8 @@ std::string report_data(const ReportInput& in) {
              {"panels", panels(in)},
              {"notes", in.notes}};
     out["sewing"] = json::array();
-    for (const SewingStep& s : in.sewing_order)
-        out["sewing"].push_back({{"text", s.text}, {"panels", s.panels}});
+    for (const ReportStep& s : in.sewing_order)
+        out["sewing"].push_back({{"text", s.text}, {"seam", s.seam}, {"panels", s.panels}});
     out["convergence"] = json::array();
     for (const ConvergenceCurve& c : in.convergence)
         out["convergence"].push_back({{"name", c.name}, {"residual", c.residual}});

@@ -41,9 +41,9 @@ ReportInput synthetic_report(int around, int up) {
     in.deviation = bag.deviation;
     in.deviation_from = "the surface that was cut";
     in.panels = bag.panels;
-    in.sewing_order = {{"Panel 1 to panel 2, 302 mm, from the rim down", {0, 1}},
-                       {"Panel 2 to panel 3, 302 mm", {1, 2}},
-                       {"The bottom, panel 5, all around", {4}}};
+    in.sewing_order = {{"Panel 1 to panel 2, 302 mm, from the rim down", 3, {0, 1}},
+                       {"Panel 2 to panel 3, 302 mm", 6, {1, 2}},
+                       {"The bottom, panel 5, all around", 1, {0, 4}}};
     ConvergenceCurve a{"inflate", {}}, b{"sew", {}};
     for (int i = 0; i < 17; ++i)
         a.residual.push_back(std::pow(10, -0.03 * i * i) * (1 + 0.4 * std::sin(2.0 * i)));

@@ -35,16 +35,17 @@ const Data = (() => {
   const theta = raw.mesh.theta ? numbers(raw.mesh.theta) : null;
   const fields = raw.fields.map(f => ({...f, values: numbers(f.values)}));
 
-  // Who is sewn to whom, and how long the seams are together, m.
-  const neighbours = raw.panels.map(() => new Map());
-  for (const s of raw.mesh.seams || []) {
+  // Per panel the seams around it: the panel beyond (-1: a rim), the seam and its length, m.
+  const neighbours = raw.panels.map(() => []);
+  (raw.mesh.seams || []).forEach((s, seam) => {
     const [a, b] = s.panels;
-    if (a < 0 || b < 0 || a === b || !neighbours[a] || !neighbours[b]) continue;
-    neighbours[a].set(b, (neighbours[a].get(b) || 0) + s.length);
-    neighbours[b].set(a, (neighbours[b].get(a) || 0) + s.length);
-  }
+    if (neighbours[a]) neighbours[a].push({panel: b, seam, name: s.name, length: s.length});
+    if (neighbours[b] && a !== b) neighbours[b].push({panel: a, seam, name: s.name, length: s.length});
+  });
+  for (const list of neighbours) list.sort((p, q) => p.panel - q.panel || p.seam - q.seam);
   return {
     raw, faces, shapes, panelOfFace, theta, fields, maps, neighbours, panels: raw.panels,
     seams: raw.mesh.seams || [], singularities: raw.mesh.singularities || [], crossFaces: raw.mesh.cross_faces || [],
+    labelFaces: raw.mesh.label_faces || [],
   };
 })();
