@@ -1,5 +1,6 @@
 #include "formwork/report/report_data.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -57,6 +58,32 @@ json positions(const std::vector<Vector3d>& x) {
     return axes;
 }
 
+/// Arms of the cross field on faces spread over the bag, as parts of their face's first two edges,
+/// so that they follow every shape: arm k is parts[2k] (x1 - x0) + parts[2k + 1] (x2 - x0), two
+/// arms a face.
+json crosses(const Segmentation& g) {
+    constexpr int count = 1800;
+    const double spacing = std::sqrt(0.7 * arcsim::total_area(g.mesh) / count);
+    std::vector<std::uint32_t> faces;
+    std::vector<float> parts;
+    for (const int f : spread_faces(g.mesh, spacing)) {
+        const arcsim::FaceFrame frame = arcsim::face_frame(g.mesh, f);
+        const arcsim::Triangle& t = g.mesh.faces[f];
+        arcsim::Matrix2d edges;
+        edges << frame.local(g.mesh.x[t[1]] - g.mesh.x[t[0]]),
+            frame.local(g.mesh.x[t[2]] - g.mesh.x[t[0]]);
+        faces.push_back(static_cast<std::uint32_t>(f));
+        for (const double turn : {0.0, M_PI / 2}) {
+            const double angle = g.field_theta[f] + turn;
+            const Vector2d part =
+                edges.inverse() * (0.46 * spacing * Vector2d(std::cos(angle), std::sin(angle)));
+            parts.push_back(static_cast<float>(part.x()));
+            parts.push_back(static_cast<float>(part.y()));
+        }
+    }
+    return {{"faces", integers(faces, "u32")}, {"parts", integers(parts, "f32")}};
+}
+
 /// As the sheets print it (panels/panel_set.hpp), which here may not have been made yet.
 std::string seam_name(const Seam& s, int number) {
     return (s.is_rim() ? "R" : "S") + std::string(number < 9 ? "0" : "") +
@@ -79,13 +106,7 @@ json mesh(const ReportInput& in, const ReportMesh& m) {
     std::vector<std::uint16_t> panel;
     for (const int p : g.panel) panel.push_back(static_cast<std::uint16_t>(p));
     out["panel"] = integers(panel, "u16");
-    if (!g.field_theta.empty()) {
-        std::vector<double> quarter;  // an arm known up to quarter turns
-        for (const double t : g.field_theta)
-            quarter.push_back(t - M_PI / 2 * std::floor(t / (M_PI / 2)));
-        out["theta"] = quantised(quarter);
-        out["cross_faces"] = cross_faces(m.rest, 1800);
-    }
+    if (!g.field_theta.empty()) out["crosses"] = crosses(g);
     out["label_faces"] = panel_label_faces(g, m.rest);
     out["seams"] = json::array();
     for (const Seam& s : g.seams) {

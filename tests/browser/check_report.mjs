@@ -48,7 +48,8 @@ try {
   const first = await look(page);
   expect(first.drawn > 0.03 && first.colours > 20, `the canvas shows a shaded bag (${(100 * first.drawn).toFixed(1)} % drawn, ${first.colours} colours)`);
   await page.screenshot({path: join(folder, 'light.png')});
-  await page.screenshot({path: join(folder, 'light-full.png'), fullPage: true});
+  for (const id of ['flat', 'figures', 'convergence', 'pictures', 'model', 'sewing'])
+    if (await page.isVisible('#' + id)) await page.locator('#' + id).screenshot({path: join(folder, `light-${id}.png`)});
 
   for (const key of await page.$$eval('#shapes button', b => b.map(x => x.dataset.shape))) {
     await page.click(`#shapes button[data-shape="${key}"]`);
@@ -110,7 +111,8 @@ try {
     const wide = await other.page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
     expect(wide <= 0, `${name}: nothing stands out of the page (${wide} px)`);
     await other.page.screenshot({path: join(folder, name + '.png')});
-    await other.page.screenshot({path: join(folder, name + '-full.png'), fullPage: true});
+    for (const id of ['view', 'flat', 'figures', 'pictures'])
+      if (await other.page.isVisible('#' + id)) await other.page.locator('#' + id).screenshot({path: join(folder, `${name}-${id}.png`)});
     expect((await look(other.page)).drawn > 0.03, `${name}: the canvas is not blank`);
     expect(other.trouble.length === 0, `${name}: no console error` + other.trouble.map(t => '\n       ' + t).join(''));
     await other.page.close();

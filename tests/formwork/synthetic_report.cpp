@@ -19,7 +19,7 @@ ReportInput synthetic_report(int around, int up) {
         "segment": {"panels": 5, "singularities": {"+1/4": 4, "-1/4": 1}, "index_sum": 0.75, "seam_length_m": 1.52, "all_disks": true},
         "panels": {"count": 5, "cloth_area_m2": 0.094, "max_stretch_distortion": 0.05, "flips": 0, "files": ["panels.svg", "panels.dxf"]},
         "sew": {"converged": true, "volume_m3": 0.00231, "liquid_mass_kg": 3.93, "depth_m": 0.305, "mean_abs_shear": 0.004, "shape_rms_m": 0.0021,
-        "compare": {"rotated_45": {"mean_abs_shear": 0.012, "shape_rms_m": 0.004}}}})";
+        "compare": {"rotated_45": {"mean_abs_shear": 0.012, "max_abs_shear": 0.05, "shape_rms_m": 0.004}, "random": {"mean_abs_shear": 0.009, "max_abs_shear": 0.04, "shape_rms_m": 0.003}}}})";
     in.scene_json =
         R"({"cloths": [{"mesh": "meshes/column.obj"}], "formwork": {"inflate": {"material": {"model": "isotropic",
         "compression": "tension_field"}}, "sew": {"material": {"model": "tensor", "data": "materials/woven_table3.json"}}}})";

@@ -36,13 +36,13 @@ const Flat = (() => {
 
   function piece(panel, d, dx, dy, letter) {
     const path = 'M' + d.points.map(p => (p[0] + dx).toFixed(2) + ' ' + (p[1] + dy).toFixed(2)).join('L') + 'Z';
-    const at = roomiest(d), x = at.x + dx, y = at.y + dy, a = Math.min(0.18 * d.h, 2.2 * letter), head = 0.3 * letter;
+    const at = roomiest(d), size = Math.min(letter, 0.3 * d.w, 0.3 * d.h), a = Math.min(0.16 * d.h, 2 * size), head = 0.35 * size;
+    const x = at.x + dx, y = at.y + dy - 0.6 * size;
     const line = (x1, y1, x2, y2) => svg('line', {x1, y1, x2, y2});
     return svg('g', {class: 'piece', 'data-panel': panel.id, tabindex: 0, role: 'button', 'aria-label': `Panel ${panel.name}`},
         svg('path', {d: path, fill: `color-mix(in srgb, ${panel.colour} 72%, white)`}),
-        svg('text', {x: x - 0.15 * letter, y: y + 0.36 * letter, 'font-size': letter, 'text-anchor': 'end'}, panel.name),
-        line(x + 0.35 * letter, y + a, x + 0.35 * letter, y - a), line(x + 0.35 * letter, y - a, x + 0.35 * letter - head, y - a + head),
-        line(x + 0.35 * letter, y - a, x + 0.35 * letter + head, y - a + head));
+        svg('text', {x, y: y + a + 1.05 * size, 'font-size': size, 'text-anchor': 'middle'}, panel.name),
+        line(x, y + a, x, y - a), line(x, y - a, x - head, y - a + head), line(x, y - a, x + head, y - a + head));
   }
 
   function rows(boxes, width, gap) {

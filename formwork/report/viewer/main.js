@@ -7,10 +7,12 @@
 
   Page.theme();
   Page.keyFigures(summary);
+  Page.comparison(summary && summary.sew);
   Page.figureTables(summary);
   Page.convergencePlots(raw.convergence);
   Page.pictures(raw.pictures);
-  Page.model(scene, raw.notes);
+  const violations = summary && summary.segment && Array.isArray(summary.segment.violations) ? summary.segment.violations : [];
+  Page.model(scene, [...violations.map(v => 'Bound not met: ' + v), ...raw.notes]);
   Page.scene(raw.scene);
   byId('made-by').textContent = `Made by formwork ${raw.version}. Lengths in mm, liquid in litres; everything else carries its unit.`;
 

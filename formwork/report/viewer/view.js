@@ -67,32 +67,7 @@ const View = (() => {
     if (rimPairs.length) lines.rims = lineSet(0x6b7278, 2);
     if (Data.seams.length) { lines.seam = lineSet(0xff5a1f, 7); lines.seam.visible = false; }
 
-    // A cross is kept as parts of its face's edges at rest, so that it follows every shape.
-    const crosses = [];
-    if (Data.theta && Data.crossFaces.length) {
-      const rest = Data.shapes[0].x;
-      let area = 0;
-      const at = i => new THREE.Vector3(rest[3 * i], rest[3 * i + 1], rest[3 * i + 2]);
-      const frames = Data.crossFaces.map(f => {
-        const [a, b, c] = [0, 1, 2].map(k => at(Data.faces[3 * f + k]));
-        const e1 = b.clone().sub(a), e2 = c.clone().sub(a), n = e1.clone().cross(e2);
-        return {f, e1, e2, n};
-      });
-      for (let f = 0; f < nFaces; ++f) {
-        const [a, b, c] = [0, 1, 2].map(k => at(Data.faces[3 * f + k]));
-        area += b.sub(a).cross(c.sub(a)).length() / 2;
-      }
-      const size = 0.36 * Math.sqrt(area / Data.crossFaces.length);
-      for (const {f, e1, e2, n} of frames) {
-        const x = e1.clone().normalize(), y = n.clone().normalize().cross(x), det = n.lengthSq();
-        for (const turn of [0, Math.PI / 2]) {
-          const angle = Data.theta[f] + turn;
-          const d = x.clone().multiplyScalar(Math.cos(angle)).addScaledVector(y, Math.sin(angle)).multiplyScalar(size);
-          crosses.push({f, p: d.clone().cross(e2).dot(n) / det, q: e1.clone().cross(d).dot(n) / det});
-        }
-      }
-      lines.cross = lineSet(0x14202c, 1.6);
-    }
+    if (Data.crosses) lines.cross = lineSet(0x14202c, 1.6);
 
     function label(name, text, title, colour, at) {   // at: nodes whose mean it marks
       const node = document.createElement('span');
@@ -138,14 +113,15 @@ const View = (() => {
       updateSeam();
       if (lines.cross) {
         const out = [];
-        for (const {f, p: s, q: t} of crosses) {
-          const [a, b, c] = [0, 1, 2].map(k => 3 * faces[3 * f + k]);
-          for (const sign of [-1, 1])
-            for (let k = 0; k < 3; ++k) {
-              const centre = (x[a + k] + x[b + k] + x[c + k]) / 3 + 2 * lift * normal[a + k];
-              out.push(centre + sign * (s * (x[b + k] - x[a + k]) + t * (x[c + k] - x[a + k])));
-            }
-        }
+        Data.crosses.faces.forEach((f, i) => {
+          const [a, b, c] = [0, 1, 2].map(k => 3 * faces[3 * f + k]), parts = Data.crosses.parts;
+          for (let arm = 4 * i; arm < 4 * i + 4; arm += 2)
+            for (const sign of [-1, 1])
+              for (let k = 0; k < 3; ++k) {
+                const centre = (x[a + k] + x[b + k] + x[c + k]) / 3 + 2 * lift * normal[a + k];
+                out.push(centre + sign * (parts[arm] * (x[b + k] - x[a + k]) + parts[arm + 1] * (x[c + k] - x[a + k])));
+              }
+        });
         lines.cross.geometry.setPositions(out);
       }
     }
