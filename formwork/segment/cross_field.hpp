@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "arcsim/mesh/surface.hpp"
@@ -38,7 +40,7 @@ struct FieldParams {
     double alpha = 0.1;            // weight of the data against the smoothness, unit face measure
     double smoothing_length = 0;   // m; > 0 replaces alpha: alpha_f = A_f / (sqrt(3) l²), independent of the resolution
     double singularity_price = 0.1;   // rad² per quarter of singular index: pairs that the data hardly need are cancelled
-    int effort = 1;                // 0: one start, no search; 1: all starts, search from the best; 2: search from all
+    int effort = 1;                // 0: diffuse, round and solve only; n: search over the periods, shake n times
     bool fill_isotropic = false;   // second pass: faces that hardly prefer a direction follow their neighbours only
     std::vector<HardDirection> hard;
 };
@@ -52,6 +54,9 @@ void visit(Archive& a, FieldParams& p) {
                "what a quarter of singular index costs beside (12): pairs that the data hardly need are cancelled");
 }
 
+/// Told after each step of smooth_cross_field: its name, (12), and (12) with the price of the singularities.
+using FieldObserver = std::function<void(const std::string& step, double energy, double cost)>;
+
 /// The smoothest cross field that still follows the data: a minimum of (12),
 ///
 ///   E = sum_e (theta_i - theta_j + kappa_ij + pi/2 p_ij)² + sum_f alpha_f w_f d(theta_f, data_f)²
@@ -62,7 +67,7 @@ void visit(Archive& a, FieldParams& p) {
 /// @throws InputError   data of the wrong length, a hard direction of a face that does not exist
 /// @throws NumericalError   the factorisation failed (degenerate faces)
 CrossField smooth_cross_field(const Surface& s, const Topology& t, const std::vector<DirectionData>& data,
-                              const FieldParams& params);
+                              const FieldParams& params, const FieldObserver& observer = nullptr);
 
 /// The field that has these angles, with the period on every edge nearest to its neighbours' (principal
 /// matching), and its energies. Also the evaluator for a field from elsewhere.
