@@ -63,7 +63,6 @@ CrossField smooth_cross_field(const Surface& s, const Topology& t, const std::ve
     double start_energy = std::numeric_limits<double>::infinity();
     const auto try_start = [&](const std::string& name, FieldState state) {
         angles.alternate(state);
-        start_energy = std::min(start_energy, state.energy);
         report(name, state);
         if (params.effort > 0) search.descend(state);
         report(name + ", descended", state);
@@ -74,9 +73,12 @@ CrossField smooth_cross_field(const Surface& s, const Topology& t, const std::ve
     };
     const PowerField power(problem, ordering);
     const std::vector<Complex> linear = power.linear();
-    for (const double tau : {10.0, 250.0})
-        try_start(tau < 100 ? "diffused over 10" : "diffused over 250",
-                  match_periods(problem, angles_of(power.diffuse(linear, tau, 60))));
+    for (const double tau : {10.0, 250.0}) {
+        FieldState state = match_periods(problem, angles_of(power.diffuse(linear, tau, 60)));
+        angles.alternate(state);
+        start_energy = std::min(start_energy, state.energy);
+        try_start(tau < 100 ? "diffused over 10" : "diffused over 250", std::move(state));
+    }
     // Small diffusions of the best field so far shake loose what single moves cannot: regions whose field
     // would have to turn as a whole.
     for (int shake = 0; shake < params.effort; ++shake) {
@@ -85,7 +87,7 @@ CrossField smooth_cross_field(const Surface& s, const Topology& t, const std::ve
         for (std::size_t f = 0; f < z.size(); ++f) z[f] = std::polar(1.0, 4 * best.theta[f]);
         try_start("shaken", match_periods(problem, angles_of(power.diffuse(z, taus[shake % 3], 5))));
     }
-    if (best.energy > start_energy) {   // the price bought fewer singularities with more energy than a start had
+    if (best.energy > start_energy) {   // never more energy than plain diffusion has, whatever the price saved
         PeriodSearch free_of_charge(s, t, angles, 0);
         free_of_charge.descend(best);
         report("descended without price", best);

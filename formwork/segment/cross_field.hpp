@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "arcsim/base/archive.hpp"
 #include "arcsim/mesh/surface.hpp"
 #include "arcsim/mesh/topology.hpp"
 #include "formwork/segment/direction_data.hpp"
@@ -47,11 +48,14 @@ struct FieldParams {
 
 template <class Archive>
 void visit(Archive& a, FieldParams& p) {
-    a.optional("alpha", p.alpha, "1", "weight of the strain directions against smoothness in (12), unit face measure");
-    a.optional("smoothing_length", p.smoothing_length, "m",
-               "length over which noise is smoothed, independent of the resolution; 0: alpha counts");
-    a.optional("singularity_price", p.singularity_price, "rad²",
-               "what a quarter of singular index costs beside (12): pairs that the data hardly need are cancelled");
+    a.optional("alpha", p.alpha, "", arcsim::non_negative,
+               "alpha of (12): weight of the strain's directions against smoothness, each face counting the same.");
+    a.optional("smoothing_length", p.smoothing_length, "m", arcsim::non_negative,
+               "Length over which noise is smoothed, whatever the resolution; 0: alpha counts.");
+    a.optional("singularity_price", p.singularity_price, "rad²", arcsim::non_negative,
+               "What a quarter of singular index costs beside (12): pairs that the data hardly need are cancelled.");
+    a.optional("search_effort", p.effort, "", arcsim::between(0, 100),
+               "0: diffuse, round and solve only; n: search over the periods and shake n times.");
 }
 
 /// Told after each step of smooth_cross_field: its name, (12), and (12) with the price of the singularities.
