@@ -188,8 +188,9 @@ VectorXd ConvergedStepper::solve(const Problem& p, const State& start, StepResul
                 const double moved = alpha * p.h * dv.cwiseAbs().maxCoeff();
                 const bool solved = r_next.cwiseAbs().maxCoeff() / p.h <= params_.tolerance * next_scale;
                 if (!solved && moved > rounding_move) {
-                    correction(r_next, dv_next);
-                    if (!(mass_norm(dv_next) <= (1 - alpha / 4) * length)) continue;
+                    const bool smaller = r_next.squaredNorm() <= std::pow(1 - alpha / 4, 2) * r.squaredNorm();
+                    if (!smaller) correction(r_next, dv_next);
+                    if (!smaller && !(mass_norm(dv_next) <= (1 - alpha / 4) * length)) continue;
                 }
                 accepted = true;
                 v.swap(v_next);

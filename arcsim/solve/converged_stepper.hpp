@@ -13,8 +13,9 @@ namespace arcsim {
 /// D: stiffness-proportional damping. Nothing lags: bending stiffness and the wind's normal are those of x.
 ///
 /// Newton with K = M + h'² H + h' (D + W), H the exact tangent while K can be factorised, else the definite
-/// one. The tabulated law has no potential, so the line search measures the correction that the old matrix
-/// would make next (natural monotonicity), which does not suffer from the ratio of the stiffnesses.
+/// one. The tabulated law has no potential, so the line search asks that the residual, or else the correction
+/// that the old matrix would make next (natural monotonicity), becomes smaller; the latter does not suffer
+/// from the ratio of the stiffnesses.
 ///
 /// A step fails when the iteration does not converge, a number is not finite, or a face is stretched beyond
 /// the limit. It is then halved, the halves again, up to `max_halvings` times.
