@@ -14,10 +14,9 @@ namespace formwork {
 using arcsim::Vector3d;
 
 /// One line of the sewing order, as it is to be read at the machine.
-struct ReportStep {
-    std::string text;         // for example "join P03 to P05, 242 mm"
-    int seam = -1;            // of Segmentation::seams; clicking the line shows it
-    std::vector<int> panels;  // 0-based, shown with it
+struct SewingStep {
+    std::string text;         // for example "panel 3 to panel 5, 242 mm"
+    std::vector<int> panels;  // 0-based; clicking the line shows them
 };
 
 /// The residual after each iteration of one solve, relative to the load.
@@ -51,7 +50,7 @@ struct ReportInput {
         deviation;  // per node of segmentation->mesh: signed distance, m; positive outside
     std::string deviation_from;  // of what: "the surface that was cut", "the target"
 
-    std::vector<ReportStep> sewing_order;
+    std::vector<SewingStep> sewing_order;
     std::vector<ConvergenceCurve> convergence;
     std::vector<ReportPicture> pictures;
     std::vector<std::string> notes;  // assumptions and warnings of this run, one sentence each

@@ -8,8 +8,6 @@
 #include <queue>
 #include <random>
 
-#include "formwork/panels/panel_set.hpp"
-
 namespace formwork {
 namespace {
 
@@ -97,7 +95,7 @@ std::vector<Line3> seam_lines(const Segmentation& segmentation, const Surface& s
     return lines;
 }
 
-std::vector<int> panel_label_faces(const Segmentation& segmentation, const Surface& shown) {
+std::vector<Mark3> panel_number_marks(const Segmentation& segmentation, const Surface& shown) {
     // Distance from the border along edges (Dijkstra over nodes) finds the widest place of each
     // panel.
     std::vector<std::vector<int>> around(shown.x.size());
@@ -137,16 +135,13 @@ std::vector<int> panel_label_faces(const Segmentation& segmentation, const Surfa
         int& b = best[segmentation.panel[f]];
         if (b < 0 || depth(f) > depth(b)) b = f;
     }
-    return best;
-}
-
-std::vector<Mark3> panel_name_marks(const Segmentation& segmentation, const Surface& shown) {
     std::vector<Mark3> marks;
-    const std::vector<int> face = panel_label_faces(segmentation, shown);
     for (int p = 0; p < segmentation.n_panels; ++p)
-        if (face[p] >= 0)
-            marks.push_back(
-                {arcsim::face_centroid(shown, face[p]), panel_name(p), {0.07, 0.08, 0.1}, 0});
+        if (best[p] >= 0)
+            marks.push_back({arcsim::face_centroid(shown, best[p]),
+                             std::to_string(p + 1),
+                             {0.07, 0.08, 0.1},
+                             0});
     return marks;
 }
 
