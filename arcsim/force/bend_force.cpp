@@ -164,9 +164,12 @@ void BendForce::add_step(const State& s, double h, VectorXd& f, BlockMatrix& A) 
     assemble<true, true>(s.x, -1, Step{h}, &f, &A);
 }
 
+bool BendForce::is_damped() const {
+    return std::any_of(hinges_.begin(), hinges_.end(), [](const Hinge& h) { return h.damping != 0; });
+}
+
 void BendForce::add_damping(const State& s, BlockMatrix& H) const {
-    const auto is_damped = [](const Hinge& h) { return h.damping != 0; };
-    if (std::any_of(hinges_.begin(), hinges_.end(), is_damped))
+    if (is_damped())
         assemble<false, true>(s.x, 1, Damping{}, nullptr, &H);
 }
 

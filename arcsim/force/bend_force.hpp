@@ -42,6 +42,7 @@ public:
     void list_pairs(std::vector<std::array<int, 2>>& pairs) const override;
     void bind(const BlockPattern& pattern) override;
 
+    bool is_damped() const;
     /// The lagged angles, rad, by hinge: what a resumed run needs beside positions.
     const std::vector<double>& lagged_angles() const { return lagged_; }
     void set_lagged_angles(std::vector<double> angles);

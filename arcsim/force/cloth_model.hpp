@@ -20,6 +20,7 @@ struct HeldNode {
 /// One cloth with everything that acts on it. Cloths do not touch, so each is stepped by itself.
 struct ClothModel {
     std::vector<Triangle> faces;
+    double size = 0;                     // longest side of the start pose's box, m
     VectorXd mass;                       // lumped, kg, per node; a third of each face's
     std::unique_ptr<StretchForce> stretch;
     std::unique_ptr<BendForce> bend;

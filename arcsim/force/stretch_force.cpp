@@ -184,9 +184,12 @@ void StretchForce::add_step(const State& s, double h, VectorXd& f, BlockMatrix& 
     assemble<true, true>(s.x, -1, Step{h}, &f, &A);
 }
 
+bool StretchForce::is_damped() const {
+    return std::any_of(faces_.begin(), faces_.end(), [](const StretchFace& f) { return f.damping != 0; });
+}
+
 void StretchForce::add_damping(const State& s, BlockMatrix& H) const {
-    const auto is_damped = [](const StretchFace& f) { return f.damping != 0; };
-    if (std::any_of(faces_.begin(), faces_.end(), is_damped))
+    if (is_damped())
         assemble<false, true>(s.x, 1, Damping{}, nullptr, &H);
 }
 

@@ -34,6 +34,7 @@ public:
     void add_gradient_and_hessian(const State& s, Tangent t, VectorXd& g, BlockMatrix& H) const override;
     void add_step(const State& s, double h, VectorXd& f, BlockMatrix& A) const override;
     void add_damping(const State& s, BlockMatrix& H) const override;
+    bool is_damped() const;
     bool is_unsymmetric() const override { return true; }
     void bind(const BlockPattern& pattern) override;
 

@@ -12,6 +12,7 @@ WindForce::WindForce(std::vector<Face> faces, double density, double drag, const
 }
 
 void WindForce::refresh(const VectorXd& x) {
+    if (!acts()) return;
     for (size_t f = 0; f < faces_.size(); ++f) {
         const Triangle& t = faces_[f].node;
         const Vector3d x0 = x.segment<3>(3 * t[0]);
@@ -25,6 +26,7 @@ Vector3d WindForce::relative_velocity(const State& s, const Face& f) const {
 }
 
 void WindForce::add_gradient(const State& s, VectorXd& g) const {
+    if (!acts()) return;
     for (size_t i = 0; i < faces_.size(); ++i) {
         const Face& f = faces_[i];
         const Vector3d& n = normals_[i];

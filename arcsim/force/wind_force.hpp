@@ -26,6 +26,7 @@ public:
     void add_velocity_hessian(const State& s, BlockMatrix& H) const override;
     void bind(const BlockPattern& pattern) override { pattern_ = &pattern; }
     void refresh(const VectorXd& x);
+    bool acts() const { return density_ > 0 || drag_ > 0; }
 
 private:
     Vector3d relative_velocity(const State& s, const Face& f) const;

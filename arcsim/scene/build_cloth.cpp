@@ -149,6 +149,10 @@ ClothModel build_model(const ClothMesh& mesh, const ClothParams& cloth, const Sc
     const VectorXd x = positions(mesh);
     std::vector<StretchFace> faces = stretch_faces(mesh, cloth);
     std::vector<WindForce::Face> wind_faces;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto along = x(Eigen::seq(axis, Eigen::last, 3));
+        model.size = std::max(model.size, along.maxCoeff() - along.minCoeff());
+    }
     model.mass = VectorXd::Zero(mesh.n_nodes());
     for (const StretchFace& f : faces) {
         for (int node : f.node) model.mass[node] += density[f.material] * f.area / 3;

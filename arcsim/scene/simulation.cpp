@@ -31,6 +31,9 @@ Simulation::Simulation(const SceneParams& scene, const std::vector<Motion>& moti
         cloth.handles = std::make_unique<Handles>(scene, static_cast<int>(c), cloth.mesh, motions);
         cloth.model.springs.reserve_pairs(cloth.handles->glued_pairs());
         cloth.stepper = make_stepper(cloth.model, scene.solver);
+        cloth.stepper->place_handles = [&cloth](double time) {
+            cloth.handles->update(time, cloth.state.x, cloth.model);
+        };
         State& s = cloth.state;
         s.x.resize(3 * cloth.mesh.n_nodes());
         s.v = s.x;
@@ -49,7 +52,7 @@ void Simulation::step() {
     const double new_time = time_ + h;
     for (size_t c = 0; c < cloths_.size() && !scene_.disables("physics"); ++c) {
         RunningCloth& cloth = cloths_[c];
-        cloth.handles->update(new_time, cloth.state.x, cloth.model);
+        cloth.stepper->place_handles(new_time);
         cloth.state.time = new_time;
         cloth.start_x = cloth.state.x;
         try {

@@ -1,4 +1,5 @@
 #include <cholmod.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <string>
@@ -8,6 +9,19 @@
 
 namespace arcsim {
 namespace {
+
+/// CHOLMOD asks for four OpenMP threads in loops of microseconds, whatever OMP_NUM_THREADS says; waiting for
+/// them doubles the time of a factorisation (measured). Within this scope they run on the calling thread.
+class NoNestedThreads {
+public:
+    NoNestedThreads() : levels_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
+    ~NoNestedThreads() { omp_set_max_active_levels(levels_); }
+    NoNestedThreads(const NoNestedThreads&) = delete;
+    NoNestedThreads& operator=(const NoNestedThreads&) = delete;
+
+private:
+    int levels_;
+};
 
 /// Supernodal Cholesky. The pattern already stands in fill order, so CHOLMOD is told to keep it: it then
 /// reads our arrays where they are, without a permuted copy.
@@ -52,6 +66,7 @@ public:
     bool try_factorize(const BlockMatrix& A) override {
         if (pattern_ != &A.pattern()) analyze(A.pattern());
         const double start = cpu_seconds();
+        const NoNestedThreads serial;
         cholmod_sparse view_of_A = view(A.pattern(), const_cast<double*>(A.values()));
         cholmod_factorize(&view_of_A, L_, &common_);
         ++cost_.factorizations;
@@ -67,6 +82,7 @@ public:
 
     void solve(const VectorXd& b, VectorXd& x) const override {
         if (!factorized_) throw NumericalError("cholmod: solve without a factorisation");
+        const NoNestedThreads serial;
         const auto& node = pattern_->node_at();
         const int n = pattern_->n_nodes();
         for (int p = 0; p < n; ++p) b_.segment<3>(3 * p) = b.segment<3>(3 * node[p]);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "arcsim/solve/cloth_system.hpp"
@@ -26,13 +27,15 @@ public:
     /// What the method remembers beside the State, for files; empty: nothing.
     virtual std::vector<double> memory() const { return {}; }
     virtual void set_memory(const std::vector<double>&) {}
+    /// Puts the handles where they are at a time, for methods that divide a step.
+    std::function<void(double time)> place_handles = [](double) {};
     const StepCost& cost() const { return cost_; }
     ClothSystem& system() { return system_; }
 
 protected:
     explicit ClothStepper(ClothModel& model, FillOrder order) : system_(model, order) {}
     /// Throws when a position is not finite or a face is beyond the limit; names the face.
-    void check_state(const VectorXd& x, double max_stretch) const;
+    void check_state(const VectorXd& x, double max_stretch);
 
     ClothSystem system_;
     StepCost cost_;

@@ -6,8 +6,8 @@
 
 namespace arcsim {
 
-void ClothStepper::check_state(const VectorXd& x, double max_stretch) const {
-    const auto [face, stretch] = const_cast<ClothSystem&>(system_).model().stretch->largest_stretch(x);
+void ClothStepper::check_state(const VectorXd& x, double max_stretch) {
+    const auto [face, stretch] = system_.model().stretch->largest_stretch(x);
     if (face < 0 || stretch <= max_stretch) return;
     throw NumericalError("face " + std::to_string(face) + " is stretched " + format_short(stretch) +
                          " times (limit " + format_short(max_stretch) + ")");

@@ -16,7 +16,7 @@ constexpr int pcg_limit = 40;            // beyond, a new factor is cheaper
 constexpr int pcg_refactor_next = 8;     // beyond, the next step gets a new factor
 constexpr double fade_below = 1e-6;      // of T*: smaller regularisations are set to nothing
 constexpr double wake_at = 1e-4;         // of T*: the first one tried where the tangent is not definite
-constexpr double largest_step = 1. / 3;  // of R per Newton step
+constexpr double largest_step = 0.5;     // of the rest shape's half width per Newton step
 constexpr int most_halvings = 12;
 constexpr double runaway_stretch = 12;   // far beyond any table; a bag that large has no equilibrium
 
@@ -128,7 +128,7 @@ void NewtonSolver::report(const std::string& phase, double residual, double step
 NewtonOutcome NewtonSolver::solve(VectorXd& x, double tolerance, double T0, const std::string& phase) {
     Stopwatch total(times_.total);
     NewtonOutcome out;
-    const double R = system_.scales().radius;
+    const double longest_allowed = largest_step * system_.scales().reach;
     StaticSystem::Balance now;
     {
         Stopwatch watch(times_.line_search);
@@ -179,7 +179,7 @@ NewtonOutcome NewtonSolver::solve(VectorXd& x, double tolerance, double T0, cons
         }
         Stopwatch watch(times_.line_search);
         const double longest = d_.lpNorm<Eigen::Infinity>();
-        if (longest > largest_step * R) d_ *= largest_step * R / longest;
+        if (longest > longest_allowed) d_ *= longest_allowed / longest;
         // Along d the fabric pulls forward at first (slope > 0); a step may overshoot until it pulls back by half.
         const double slope = -d_.dot(g_);
         step = 1;

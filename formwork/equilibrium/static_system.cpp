@@ -51,20 +51,50 @@ double mean_held_height(const std::vector<char>& fixed, const VectorXd& x, const
     return std::numeric_limits<double>::quiet_NaN();
 }
 
-double second_half_width(const Surface& s, double area) {
+/// Half widths of the rest shape along its principal axes, ascending: of a uniform box with the same second moments.
+Vector3d half_widths(const Surface& s) {
     Vector3d mean = Vector3d::Zero();
     arcsim::Matrix3d second = arcsim::Matrix3d::Zero();
+    const double area = total_area(s);
     for (int f = 0; f < s.n_faces(); ++f) {
         const Vector3d c = face_centroid(s, f);
         const double A = face_area(s, f);
-        mean += A * c;
-        second += A * c * c.transpose();
+        mean += A / area * c;
+        second += A / area * c * c.transpose();
     }
-    mean /= area;
-    second = second / area - mean * mean.transpose();
-    // A uniform square of half width R has the variance R²/3 along each side.
+    second -= mean * mean.transpose();
     const Vector3d variance = Eigen::SelfAdjointEigenSolver<arcsim::Matrix3d>(second).eigenvalues();
-    return std::sqrt(3 * std::max(variance[1], 0.0));
+    return (3 * variance.cwiseMax(0)).cwiseSqrt();
+}
+
+/// How far a node is from the nearest node that is held against `up`, at most; 0 without such nodes. A sample of both is
+/// enough for a scale.
+double reach(const Surface& s, const std::vector<char>& fixed, const Vector3d& up) {
+    std::vector<int> held;
+    for (int i = 0; i < s.n_nodes(); ++i) {
+        double hold = 0;
+        for (int c = 0; c < 3; ++c) hold += fixed[3 * i + c] ? up[c] * up[c] : 0;
+        if (hold > 0.5) held.push_back(i);
+    }
+    if (held.empty()) return 0;
+    const int held_step = 1 + static_cast<int>(held.size()) / 200, node_step = 1 + s.n_nodes() / 2000;
+    double farthest = 0;
+    for (int i = 0; i < s.n_nodes(); i += node_step) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k < held.size(); k += held_step)
+            nearest = std::min(nearest, (s.x[i] - s.x[held[k]]).squaredNorm());
+        farthest = std::max(farthest, nearest);
+    }
+    return std::sqrt(farthest);
+}
+
+/// Radius that the filled shape's curvature has: of a flat piece, the distance to where it is held; of a bag, its half
+/// width across its second largest extent.
+double radius_of(const Surface& s, const std::vector<char>& fixed, const Vector3d& up, const Vector3d& widths) {
+    const double r = reach(s, fixed, up);
+    const bool flat = widths[0] < 0.05 * widths[2];
+    if (r == 0) return flat ? widths[1] : std::max(widths[1], 0.05 * widths[2]);
+    return flat ? r : std::min(r, widths[1]);
 }
 
 }  // namespace
@@ -152,8 +182,9 @@ void StaticSystem::set_fill(const EquilibriumProblem& p, const VectorXd& start) 
     pressure_->set_reference(top);
 
     scales_.area = membrane_->total_rest_area();
-    scales_.radius = second_half_width(p.rest, total_area(p.rest));
-    if (!(scales_.radius > 0)) scales_.radius = std::sqrt(scales_.area);
+    const Vector3d widths = half_widths(p.rest);
+    scales_.radius = radius_of(p.rest, fixed_.flags(), d, widths);
+    scales_.reach = std::max(scales_.radius, widths[2]);
     const double liquid_level = has_liquid_ ? pressure_->level() : 0;
     // A flat sheet sags by about half its half width; a bag is at least as deep as its rest shape.
     if (has_liquid_)

@@ -13,7 +13,8 @@ namespace formwork {
 
 /// Sizes from which the solver's scales are taken; they depend on the rest shape and the load, never on the start.
 struct Scales {
-    double radius = 0;        // R: half width of the rest shape across its second largest extent, m
+    double radius = 0;        // R: of the filled shape's curvature, about, m
+    double reach = 0;         // largest half width of the rest shape, m
     double area = 0;          // of the rest shape, m²
     double pressure = 0;      // largest expected, Pa
     double tension = 0;       // T* = pressure R, N/m; without a load, a thousandth of the stiffness

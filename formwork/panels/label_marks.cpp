@@ -80,7 +80,7 @@ void add_labels(const PanelSet& set, const PatternInfo& info, PatternPiece& piec
         piece.texts.push_back({{room.at.x(), y}, scale * height, 0, text, -1});
     }
 
-    const Vector2d middle(room.at.x(), y - arrow_gap * height * 0.6);
+    const Vector2d middle(room.at.x(), y - 0.85 * arrow_gap * height);
     const double right = ray_to_outline(piece.sew, middle, Vector2d::UnitX()).value_or(room.radius);
     const double left = ray_to_outline(piece.sew, middle, -Vector2d::UnitX()).value_or(room.radius);
     constexpr double share = 0.8, longest = 200;   // of the way to the sew line; mm on each side

@@ -42,7 +42,7 @@ struct PatternPiece {
     int panel = 0;
     std::string name;                  // P03
     Line sew, cut;                     // closed, counter-clockwise, first point not repeated
-    std::vector<int> sew_seam;         // per edge of `sew`: its seam
+    std::vector<std::array<int, 2>> sew_seam;   // per edge of `sew`: its seam and the side of it
     std::vector<Line> folds;           // rim: the hem is folded here; on the sew line
     std::vector<NotchMark> notches;
     std::array<Vector2d, 2> grain;     // arrow along the warp, tail and head

@@ -61,11 +61,11 @@ void write_sew_chains(std::ostream& out, const Page& page, int index, const Patt
     std::size_t start = 0;
     while (start + 1 < n && piece.sew_seam[start] == piece.sew_seam[(start + n - 1) % n]) ++start;
     for (std::size_t i = 0; i < n;) {
-        const int seam = piece.sew_seam[(start + i) % n];
+        const std::array<int, 2> seam = piece.sew_seam[(start + i) % n];
         Line chain{piece.sew[(start + i) % n]};
         const std::size_t first = (start + i) % n;
         while (i < n && piece.sew_seam[(start + i) % n] == seam) chain.push_back(piece.sew[(start + ++i) % n]);
-        out << "<path id=\"" << piece.name << "-sew-" << first << "\" data-piece=\"" << piece.name << "\" data-seam=\"" << seam + 1
+        out << "<path id=\"" << piece.name << "-sew-" << first << "\" data-piece=\"" << piece.name << "\" data-seam=\"" << seam[0] + 1
             << "\" d=\"" << path_data(page, index, chain, false) << "\"/>\n";
     }
 }

@@ -84,8 +84,11 @@ std::optional<double> ray_to_outline(const Polygon& p, const Vector2d& origin, c
 Room widest_room(const Polygon& p) {
     constexpr int cells = 24;   // across the longer side, refined twice around the best point
     const Box box = bounding_box(p);
-    Room best;
-    best.at = (box.low + box.high) / 2;
+    constexpr double enough = 45;      // mm: a label needs no more,
+    constexpr double nearness = 0.02;  // and then stands near the middle
+    const Vector2d middle = (box.low + box.high) / 2;
+    Room best{middle, 0};
+    double best_score = -std::numeric_limits<double>::infinity();
     Vector2d low = box.low, high = box.high;
     for (int level = 0; level < 3; ++level) {
         const double step = (high - low).maxCoeff() / cells;
@@ -95,7 +98,8 @@ Room widest_room(const Polygon& p) {
                 const Vector2d at(x, y);
                 if (!contains(p, at)) continue;
                 const double radius = distance_to_outline(p, at);
-                if (radius > best.radius) best = {at, radius};
+                const double score = std::min(radius, enough) - nearness * (at - middle).norm();
+                if (score > best_score) best = {at, radius}, best_score = score;
             }
         low = best.at - Vector2d(step, step);
         high = best.at + Vector2d(step, step);
@@ -111,7 +115,6 @@ Polygon outer_union(const std::vector<Polygon>& parts) {
         clipper.AddPath(path, ClipperLib::ptSubject, true);
     }
     ClipperLib::Paths result;
-    clipper.StrictlySimple(true);
     clipper.Execute(ClipperLib::ctUnion, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
     Polygon outer;
     for (const ClipperLib::Path& path : result) {

@@ -26,7 +26,7 @@ double distance_to_outline(const Polygon& p, const Vector2d& point);
 /// nearer than `from` do not count.
 std::optional<double> ray_to_outline(const Polygon& p, const Vector2d& origin, const Vector2d& direction, double from = 0);
 
-/// The point of a grid inside the polygon that is farthest from the outline: where a label has most room.
+/// A point inside the polygon far from the outline, and near the middle where there is room enough: for a label.
 struct Room {
     Vector2d at{0, 0};
     double radius = 0;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "formwork/panels/panel_set.hpp"
 #include "formwork/report/camera.hpp"
 #include "formwork/report/legend.hpp"
 #include "formwork/report/paint.hpp"
@@ -69,15 +70,18 @@ void fill_panel(Raster& raster, const FlatPanel& p, const Box& b, const Place& a
     }
 }
 
-/// The point of the piece farthest from its outline, by its vertices.
+/// The middle of the face farthest from the outline; in a strip, the one nearest to the piece's
+/// middle.
 Vector2d label_point(const FlatPanel& p) {
-    Vector2d best = Vector2d::Zero();
-    double depth = -1;
+    Vector2d middle = Vector2d::Zero(), best = Vector2d::Zero();
+    for (const Vector2d& u : p.u) middle += u / p.u.size();
+    double depth = -1e300;
     for (const Triangle& t : p.faces) {
         const Vector2d c = (p.u[t[0]] + p.u[t[1]] + p.u[t[2]]) / 3;
         double nearest = 1e300;
         for (const int i : p.boundary) nearest = std::min(nearest, (p.u[i] - c).squaredNorm());
-        if (nearest > depth) depth = nearest, best = c;
+        const double d = std::sqrt(nearest) - 0.2 * (c - middle).norm();
+        if (d > depth) depth = d, best = c;
     }
     return best;
 }
@@ -119,7 +123,7 @@ Image picture_flat_panels(const Segmentation& segmentation, const std::vector<Fl
     const double x0 = 40, y0 = 118, room_x = o.width - 2 * x0, room_y = o.height - y0 - 90,
                  gap = 0.06 * longest;
     std::vector<Place> places, trial;
-    double scale = 0, sheet_height = 0;
+    double scale = 0, sheet_height = 0, sheet_width = 0;
     for (int k = 0; k < 60; ++k) {
         const double width = std::sqrt(area) * (0.5 + 0.05 * k);
         const double height = place_rows(boxes, width, gap, trial);
@@ -127,9 +131,12 @@ Image picture_flat_panels(const Segmentation& segmentation, const std::vector<Fl
         for (size_t i = 0; i < boxes.size(); ++i)
             used = std::max(used, trial[i].x + boxes[i].width());
         const double s = std::min(room_x / used, room_y / height);
-        if (s > scale) scale = s, places = trial, sheet_height = scale * height;
+        if (s > scale)
+            scale = s, places = trial, sheet_height = scale * height, sheet_width = scale * used;
     }
-    Image image(o.width, static_cast<int>(std::ceil(y0 + sheet_height + 90)));
+    const double least = 560;  // room for the heading and the scale bar
+    Image image(static_cast<int>(std::ceil(std::max(least, sheet_width + 2 * x0))),
+                static_cast<int>(std::ceil(y0 + sheet_height + 90)));
     const std::vector<Rgb> colours = panel_colours(segmentation);
     Raster raster(image.width, image.height);
     for (size_t i = 0; i < panels.size(); ++i) {
@@ -143,10 +150,12 @@ Image picture_flat_panels(const Segmentation& segmentation, const std::vector<Fl
         const Vector2d d = drawn(label_point(panels[i]));
         const double x = x0 + scale * (places[i].x + d.x() - boxes[i].x0),
                      y = y0 + scale * (places[i].y + d.y() - boxes[i].y0);
-        const double arrow = std::clamp(0.35 * scale * boxes[i].height(), 14.0, 90.0);
-        draw_arrow(image, x + 14, y, arrow);
-        draw_text(image, x - 2, y + 8, std::to_string(panels[i].id + 1),
-                  {.size_px = 24, .weight = 1.3, .anchor = Anchor::right, .halo_px = 2});
+        const double size =
+            std::clamp(0.28 * scale * std::min(boxes[i].width(), boxes[i].height()), 9.0, 24.0);
+        const double arrow = std::clamp(0.3 * scale * boxes[i].height(), 10.0, 4 * size);
+        draw_arrow(image, x, y - 0.6 * size, arrow);
+        draw_text(image, x, y + arrow / 2 + 0.55 * size, panel_name(panels[i].id),
+                  {.size_px = size, .weight = 1.3, .anchor = Anchor::middle, .halo_px = 1.5});
         distortion = std::max(distortion, panels[i].max_stretch_distortion);
     }
     draw_scale_bar(image, scale, x0, image.height - 38);

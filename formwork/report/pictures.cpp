@@ -129,7 +129,7 @@ Image picture_panels(const Segmentation& segmentation, const Surface& shown, con
                                          [](const Seam& s) { return !s.is_rim(); });
     std::snprintf(note, sizeof note, "%d panels, %zu seams", segmentation.n_panels, n_seams);
     return render_surface(shown, paint, seam_lines(segmentation, shown),
-                          panel_number_marks(segmentation, shown), options(up, title, note));
+                          panel_name_marks(segmentation, shown), options(up, title, note));
 }
 
 std::vector<Rgb> panel_colours(const Segmentation& segmentation) {

@@ -41,12 +41,12 @@ Image picture_curves(const Surface& shown, const std::vector<std::vector<Vector3
                      const std::vector<Singularity>& singularities, const Vector3d& up,
                      const std::string& title);
 
-/// Panels in their colours with their numbers and seams. `shown` has the nodes and faces of
+/// Panels in their colours with their names and seams. `shown` has the nodes and faces of
 /// segmentation.mesh.
 Image picture_panels(const Segmentation& segmentation, const Surface& shown, const Vector3d& up,
                      const std::string& title);
 
-/// The flat pieces at one common scale, warp upwards, with number, grain arrow and a scale bar.
+/// The flat pieces at one common scale, warp upwards, with name, grain arrow and a scale bar.
 Image picture_flat_panels(const Segmentation& segmentation, const std::vector<FlatPanel>& panels,
                           const std::string& title);
 

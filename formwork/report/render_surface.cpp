@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "formwork/report/camera.hpp"
@@ -80,18 +81,30 @@ void draw_lines(Raster& raster, const Camera& camera, const std::vector<Line3>& 
     }
 }
 
-/// The marks that can be seen, farthest first, so that near ones lie on top.
+/// The marks that can be seen, farthest first, so that near ones lie on top; one per group.
 std::vector<std::pair<Projected, const Mark3*>> visible_marks(const Raster& raster,
                                                               const Camera& camera,
                                                               const std::vector<Mark3>& marks) {
     std::vector<std::pair<Projected, const Mark3*>> seen;
+    std::map<int, std::pair<double, size_t>>
+        best;  // of each group: how well it is seen, and where in `seen`
     for (const Mark3& m : marks) {
         Projected p = camera.project(m.at);
         p.nearness = camera.nearness_step(p.nearness, 3 * line_lift * camera.diameter());
-        if (raster.is_visible(p)) seen.push_back({p, &m});
+        if (!raster.is_visible(p)) continue;
+        if (m.group >= 0) {
+            const double rank = m.weight * m.normal.dot(camera.towards_eye(m.at));
+            const auto [it, is_first] = best.try_emplace(m.group, rank, seen.size());
+            if (!is_first) {
+                if (rank > it->second.first)
+                    it->second.first = rank, seen[it->second.second] = {p, &m};
+                continue;
+            }
+        }
+        seen.push_back({p, &m});
     }
-    std::stable_sort(seen.begin(), seen.end(), [](const auto& a, const auto& b) {
-        return a.first.nearness < b.first.nearness;
+    std::stable_sort(seen.begin(), seen.end(), [](const auto& q, const auto& r) {
+        return q.first.nearness < r.first.nearness;
     });
     return seen;
 }

@@ -22,12 +22,17 @@ struct Line3 {
         0, 0, 0};  // of the surface there; when given, the line is left out where seen edge-on
 };
 
-/// A disc with a text at a point of the surface, drawn where the point is visible.
+/// A disc with a text at a point of the surface, drawn where the point is visible. Of marks with
+/// one `group` (>= 0) every view draws one, where the surface there faces the viewer and `weight`
+/// says that there is room.
 struct Mark3 {
     Vector3d at;
     std::string text;  // empty: a dot
     Rgb colour{0.85, 0.25, 0.1};
-    double radius_px = 15;  // 0: text alone, with a white rim
+    double radius_px = 15;     // 0: text alone, with a white rim
+    Vector3d normal{0, 0, 0};  // needed by marks of a group
+    int group = -1;
+    double weight = 1;
 };
 
 struct PictureOptions {

@@ -14,9 +14,10 @@ namespace formwork {
 using arcsim::Vector3d;
 
 /// One line of the sewing order, as it is to be read at the machine.
-struct SewingStep {
-    std::string text;         // for example "panel 3 to panel 5, 242 mm"
-    std::vector<int> panels;  // 0-based; clicking the line shows them
+struct ReportStep {
+    std::string text;         // for example "join P03 to P05, 242 mm"
+    int seam = -1;            // of Segmentation::seams; clicking the line shows it
+    std::vector<int> panels;  // 0-based, shown with it
 };
 
 /// The residual after each iteration of one solve, relative to the load.
@@ -27,6 +28,7 @@ struct ConvergenceCurve {
 
 /// A picture made by this program, embedded as it is.
 struct ReportPicture {
+    std::string name;  // of its file, without ending
     std::string title, caption;
     std::string png;  // the file's bytes (encode_png)
 };
@@ -43,6 +45,7 @@ struct ReportInput {
     std::vector<Vector3d> inflated;  // its nodes after `inflate`, m
     StrainField inflated_strain;     // per face of `rest`
     std::optional<Segmentation> segmentation;
+    std::vector<std::vector<Vector3d>> candidates;  // curves that might have become seams, m
     std::vector<FlatPanel> panels;
     std::vector<Vector3d> sewn;  // nodes of segmentation->mesh after `sew`, m
     StrainField sewn_strain;     // per face of segmentation->mesh
@@ -50,7 +53,7 @@ struct ReportInput {
         deviation;  // per node of segmentation->mesh: signed distance, m; positive outside
     std::string deviation_from;  // of what: "the surface that was cut", "the target"
 
-    std::vector<SewingStep> sewing_order;
+    std::vector<ReportStep> sewing_order;
     std::vector<ConvergenceCurve> convergence;
     std::vector<ReportPicture> pictures;
     std::vector<std::string> notes;  // assumptions and warnings of this run, one sentence each

@@ -1,5 +1,6 @@
 #include "formwork/report/report_data.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,13 +8,15 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "formwork/panels/panel_set.hpp"
 #include "formwork/report/base64.hpp"
 #include "formwork/report/report_fields.hpp"
+#include "formwork/report/surface_lines.hpp"
 
 namespace formwork {
 namespace {
 
-using json = nlohmann::ordered_json;   // figures keep the order in which the stages wrote them
+using json = nlohmann::ordered_json;  // figures keep the order in which the stages wrote them
 
 std::string css(const Rgb& c) {
     char text[16];
@@ -55,6 +58,38 @@ json positions(const std::vector<Vector3d>& x) {
     return axes;
 }
 
+/// Arms of the cross field on faces spread over the bag, as parts of their face's first two edges,
+/// so that they follow every shape: arm k is parts[2k] (x1 - x0) + parts[2k + 1] (x2 - x0), two
+/// arms a face.
+json crosses(const Segmentation& g) {
+    constexpr int count = 1800;
+    const double spacing = std::sqrt(0.7 * arcsim::total_area(g.mesh) / count);
+    std::vector<std::uint32_t> faces;
+    std::vector<float> parts;
+    for (const int f : spread_faces(g.mesh, spacing)) {
+        const arcsim::FaceFrame frame = arcsim::face_frame(g.mesh, f);
+        const arcsim::Triangle& t = g.mesh.faces[f];
+        arcsim::Matrix2d edges;
+        edges << frame.local(g.mesh.x[t[1]] - g.mesh.x[t[0]]),
+            frame.local(g.mesh.x[t[2]] - g.mesh.x[t[0]]);
+        faces.push_back(static_cast<std::uint32_t>(f));
+        for (const double turn : {0.0, M_PI / 2}) {
+            const double angle = g.field_theta[f] + turn;
+            const Vector2d part =
+                edges.inverse() * (0.46 * spacing * Vector2d(std::cos(angle), std::sin(angle)));
+            parts.push_back(static_cast<float>(part.x()));
+            parts.push_back(static_cast<float>(part.y()));
+        }
+    }
+    return {{"faces", integers(faces, "u32")}, {"parts", integers(parts, "f32")}};
+}
+
+/// As the sheets print it (panels/panel_set.hpp), which here may not have been made yet.
+std::string seam_name(const Seam& s, int number) {
+    return (s.is_rim() ? "R" : "S") + std::string(number < 9 ? "0" : "") +
+           std::to_string(number + 1);
+}
+
 json mesh(const ReportInput& in, const ReportMesh& m) {
     std::vector<std::uint32_t> corners;
     for (const arcsim::Triangle& t : m.rest.faces)
@@ -71,19 +106,17 @@ json mesh(const ReportInput& in, const ReportMesh& m) {
     std::vector<std::uint16_t> panel;
     for (const int p : g.panel) panel.push_back(static_cast<std::uint16_t>(p));
     out["panel"] = integers(panel, "u16");
-    if (!g.field_theta.empty()) {
-        std::vector<double> quarter;  // an arm known up to quarter turns
-        for (const double t : g.field_theta)
-            quarter.push_back(t - M_PI / 2 * std::floor(t / (M_PI / 2)));
-        out["theta"] = quantised(quarter);
-        out["cross_faces"] = cross_faces(m.rest, 1800);
-    }
+    if (!g.field_theta.empty()) out["crosses"] = crosses(g);
+    out["label_faces"] = panel_label_faces(g, m.rest);
     out["seams"] = json::array();
     for (const Seam& s : g.seams) {
         double length = 0;
         for (size_t i = 0; i + 1 < s.nodes.size(); ++i)
             length += (g.mesh.x[s.nodes[i]] - g.mesh.x[s.nodes[i + 1]]).norm();
-        out["seams"].push_back({{"nodes", s.nodes}, {"panels", s.panel}, {"length", length}});
+        out["seams"].push_back({{"name", seam_name(s, static_cast<int>(out["seams"].size()))},
+                                {"nodes", s.nodes},
+                                {"panels", s.panel},
+                                {"length", length}});
     }
     out["singularities"] = json::array();
     for (const Singularity& s : g.singularities)
@@ -132,6 +165,7 @@ json panels(const ReportInput& in) {
                 {std::round(1e5 * p.u[i].x()) / 100, std::round(1e5 * p.u[i].y()) / 100});
         const bool known = p.id >= 0 && p.id < static_cast<int>(colours.size());
         out.push_back({{"id", p.id},
+                       {"name", panel_name(p.id)},
                        {"colour", css(known ? colours[p.id] : class_colour(p.id))},
                        {"outline", outline},
                        {"area", p.area},
@@ -144,7 +178,9 @@ json panels(const ReportInput& in) {
     }
     if (in.panels.empty())
         for (size_t p = 0; p < colours.size(); ++p)
-            out.push_back({{"id", p}, {"colour", css(colours[p])}});
+            out.push_back({{"id", p},
+                           {"name", panel_name(static_cast<int>(p))},
+                           {"colour", css(colours[p])}});
     return out;
 }
 
@@ -169,8 +205,8 @@ std::string report_data(const ReportInput& in) {
              {"panels", panels(in)},
              {"notes", in.notes}};
     out["sewing"] = json::array();
-    for (const SewingStep& s : in.sewing_order)
-        out["sewing"].push_back({{"text", s.text}, {"panels", s.panels}});
+    for (const ReportStep& s : in.sewing_order)
+        out["sewing"].push_back({{"text", s.text}, {"seam", s.seam}, {"panels", s.panels}});
     out["convergence"] = json::array();
     for (const ConvergenceCurve& c : in.convergence)
         out["convergence"].push_back({{"name", c.name}, {"residual", c.residual}});

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "formwork/report/surface_lines.hpp"
-
 namespace formwork {
 namespace {
 
@@ -75,7 +73,11 @@ private:
 ReportMesh report_mesh(const ReportInput& in) {
     ReportMesh m;
     m.rest = in.segmentation ? in.segmentation->mesh : in.rest;
-    m.shapes.push_back({"rest", "Rest", m.rest.x});
+    expect(!in.segmentation || in.segmentation->source.size() == m.rest.x.size(),
+           "the source of the cut mesh");
+    // The cut mesh may lie on the inflated shape: the rest positions come from the input mesh in
+    // either case.
+    m.shapes.push_back({"rest", "Rest", in.segmentation ? carry(in, in.rest.x) : in.rest.x});
     if (!in.inflated.empty()) {
         expect(in.inflated.size() == in.rest.x.size(), "the inflated shape");
         const bool cut = in.segmentation.has_value();
@@ -117,10 +119,6 @@ std::vector<ReportField> report_fields(const ReportInput& in) {
         out.push_back(std::move(f));
     }
     return out;
-}
-
-std::vector<int> cross_faces(const Surface& s, int count) {
-    return spread_faces(s, std::sqrt(0.7 * arcsim::total_area(s) / count));
 }
 
 }  // namespace formwork

@@ -36,7 +36,4 @@ struct ReportField {
 };
 std::vector<ReportField> report_fields(const ReportInput& in);
 
-/// Faces that carry a cross in the 3-D view.
-std::vector<int> cross_faces(const Surface& s, int count);
-
 }  // namespace formwork

@@ -8,6 +8,8 @@
 #include <queue>
 #include <random>
 
+#include "formwork/panels/panel_set.hpp"
+
 namespace formwork {
 namespace {
 
@@ -95,16 +97,14 @@ std::vector<Line3> seam_lines(const Segmentation& segmentation, const Surface& s
     return lines;
 }
 
-std::vector<Mark3> panel_number_marks(const Segmentation& segmentation, const Surface& shown) {
-    // Distance from the border along edges (Dijkstra over nodes) finds the widest place of each
-    // panel.
+std::vector<double> distance_from_seams(const Segmentation& segmentation, const Surface& shown) {
     std::vector<std::vector<int>> around(shown.x.size());
     std::vector<double> distance(shown.x.size(), 1e300);
     for (const arcsim::Triangle& t : shown.faces)
         for (int k = 0; k < 3; ++k)
             around[t[k]].push_back(t[(k + 1) % 3]), around[t[(k + 1) % 3]].push_back(t[k]);
     using Entry = std::pair<double, int>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;  // Dijkstra
     for (const Seam& seam : segmentation.seams)
         for (const int i : seam.nodes) queue.push({distance[i] = 0, i});
     while (!queue.empty()) {
@@ -116,6 +116,11 @@ std::vector<Mark3> panel_number_marks(const Segmentation& segmentation, const Su
             if (next < distance[j]) queue.push({distance[j] = next, j});
         }
     }
+    return distance;
+}
+
+std::vector<int> panel_label_faces(const Segmentation& segmentation, const Surface& shown) {
+    const std::vector<double> distance = distance_from_seams(segmentation, shown);
     std::vector<Vector3d> middle(segmentation.n_panels, Vector3d::Zero());
     std::vector<double> area(segmentation.n_panels, 0.0);
     for (int f = 0; f < shown.n_faces(); ++f) {
@@ -135,13 +140,25 @@ std::vector<Mark3> panel_number_marks(const Segmentation& segmentation, const Su
         int& b = best[segmentation.panel[f]];
         if (b < 0 || depth(f) > depth(b)) b = f;
     }
+    return best;
+}
+
+std::vector<Mark3> panel_name_marks(const Segmentation& segmentation, const Surface& shown) {
+    const std::vector<double> distance = distance_from_seams(segmentation, shown);
+    std::vector<int> places = panel_label_faces(segmentation, shown);
+    for (const int f : spread_faces(shown, std::sqrt(arcsim::total_area(shown) / 600)))
+        places.push_back(f);
     std::vector<Mark3> marks;
-    for (int p = 0; p < segmentation.n_panels; ++p)
-        if (best[p] >= 0)
-            marks.push_back({arcsim::face_centroid(shown, best[p]),
-                             std::to_string(p + 1),
-                             {0.07, 0.08, 0.1},
-                             0});
+    for (const int f : places) {
+        if (f < 0) continue;
+        const arcsim::Triangle& t = shown.faces[f];
+        const int p = segmentation.panel[f];
+        Mark3 m{arcsim::face_centroid(shown, f), panel_name(p), {0.07, 0.08, 0.1}, 0};
+        m.normal = arcsim::face_normal(shown, f);
+        m.group = p;
+        m.weight = (distance[t[0]] + distance[t[1]] + distance[t[2]]) / 3;
+        marks.push_back(m);
+    }
     return marks;
 }
 

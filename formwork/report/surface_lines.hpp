@@ -25,7 +25,14 @@ std::string singularity_note(const std::vector<Singularity>& singularities);
 
 std::vector<Line3> seam_lines(const Segmentation& segmentation, const Surface& shown);
 
-/// The panel's number (1-based) at the face farthest from the panel's border.
-std::vector<Mark3> panel_number_marks(const Segmentation& segmentation, const Surface& shown);
+/// Distance of every node from the nearest seam or rim, along edges, m.
+std::vector<double> distance_from_seams(const Segmentation& segmentation, const Surface& shown);
+
+/// Per panel the face where its name has most room; -1 for a panel without faces.
+std::vector<int> panel_label_faces(const Segmentation& segmentation, const Surface& shown);
+
+/// The panels' printed names, at several places each, of which every view draws the one that it
+/// sees best.
+std::vector<Mark3> panel_name_marks(const Segmentation& segmentation, const Surface& shown);
 
 }  // namespace formwork

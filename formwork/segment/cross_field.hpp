@@ -1,8 +1,11 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <string>
 #include <vector>
 
+#include "arcsim/base/archive.hpp"
 #include "arcsim/mesh/surface.hpp"
 #include "arcsim/mesh/topology.hpp"
 #include "formwork/segment/direction_data.hpp"
@@ -38,19 +41,25 @@ struct FieldParams {
     double alpha = 0.1;            // weight of the data against the smoothness, unit face measure
     double smoothing_length = 0;   // m; > 0 replaces alpha: alpha_f = A_f / (sqrt(3) l²), independent of the resolution
     double singularity_price = 0.1;   // rad² per quarter of singular index: pairs that the data hardly need are cancelled
-    int effort = 1;                // 0: one start, no search; 1: all starts, search from the best; 2: search from all
+    int effort = 1;                // 0: diffuse, round and solve only; n: search over the periods, shake n times
     bool fill_isotropic = false;   // second pass: faces that hardly prefer a direction follow their neighbours only
     std::vector<HardDirection> hard;
 };
 
 template <class Archive>
 void visit(Archive& a, FieldParams& p) {
-    a.optional("alpha", p.alpha, "1", "weight of the strain directions against smoothness in (12), unit face measure");
-    a.optional("smoothing_length", p.smoothing_length, "m",
-               "length over which noise is smoothed, independent of the resolution; 0: alpha counts");
-    a.optional("singularity_price", p.singularity_price, "rad²",
-               "what a quarter of singular index costs beside (12): pairs that the data hardly need are cancelled");
+    a.optional("alpha", p.alpha, "", arcsim::non_negative,
+               "alpha of (12): weight of the strain's directions against smoothness, each face counting the same.");
+    a.optional("smoothing_length", p.smoothing_length, "m", arcsim::non_negative,
+               "Length over which noise is smoothed, whatever the resolution; 0: alpha counts.");
+    a.optional("singularity_price", p.singularity_price, "rad²", arcsim::non_negative,
+               "What a quarter of singular index costs beside (12): pairs that the data hardly need are cancelled.");
+    a.optional("search_effort", p.effort, "", arcsim::between(0, 100),
+               "0: diffuse, round and solve only; n: search over the periods and shake n times.");
 }
+
+/// Told after each step of smooth_cross_field: its name, (12), and (12) with the price of the singularities.
+using FieldObserver = std::function<void(const std::string& step, double energy, double cost)>;
 
 /// The smoothest cross field that still follows the data: a minimum of (12),
 ///
@@ -62,7 +71,7 @@ void visit(Archive& a, FieldParams& p) {
 /// @throws InputError   data of the wrong length, a hard direction of a face that does not exist
 /// @throws NumericalError   the factorisation failed (degenerate faces)
 CrossField smooth_cross_field(const Surface& s, const Topology& t, const std::vector<DirectionData>& data,
-                              const FieldParams& params);
+                              const FieldParams& params, const FieldObserver& observer = nullptr);
 
 /// The field that has these angles, with the period on every edge nearest to its neighbours' (principal
 /// matching), and its energies. Also the evaluator for a field from elsewhere.

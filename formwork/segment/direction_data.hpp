@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "arcsim/base/archive.hpp"
 #include "arcsim/mesh/surface.hpp"
 #include "arcsim/mesh/topology.hpp"
 #include "formwork/strain/strain_field.hpp"
@@ -28,10 +29,10 @@ struct DirectionParams {
 
 template <class Archive>
 void visit(Archive& a, DirectionParams& p) {
-    a.optional("anisotropy", p.anisotropy, "1",
-               "difference of the principal stretches at which a direction counts half; raised to twice the field's noise");
-    a.optional("averaging_rings", p.averaging_rings, "1",
-               "rings of faces over which the strain tensor is averaged before directions are taken");
+    a.optional("anisotropy", p.anisotropy, "", arcsim::positive,
+               "Difference of the principal stretches at which a direction counts half; twice the field's noise when that is more.");
+    a.optional("averaging_rings", p.averaging_rings, "", arcsim::between(0, 20),
+               "Rings of faces over which the strain tensor is averaged before directions are taken.");
 }
 
 /// Direction and weight per face from the strain on the rest surface (right singular vectors of F).

@@ -16,6 +16,8 @@ const context = await chromium.launchPersistentContext(profile, {
          '--disable-component-update', '--disable-sync', '--no-first-run'],
 });
 
+const nameOf = panel => `P${String(panel + 1).padStart(2, '0')}`;
+
 /// Share of the canvas's pixels that are drawn, and how many different colours there are.
 const look = page => page.evaluate(() => {
   const canvas = document.querySelector('#canvas-box canvas'), copy = document.createElement('canvas');
@@ -46,7 +48,8 @@ try {
   const first = await look(page);
   expect(first.drawn > 0.03 && first.colours > 20, `the canvas shows a shaded bag (${(100 * first.drawn).toFixed(1)} % drawn, ${first.colours} colours)`);
   await page.screenshot({path: join(folder, 'light.png')});
-  await page.screenshot({path: join(folder, 'light-full.png'), fullPage: true});
+  for (const id of ['flat', 'figures', 'convergence', 'pictures', 'model', 'sewing'])
+    if (await page.isVisible('#' + id)) await page.locator('#' + id).screenshot({path: join(folder, `light-${id}.png`)});
 
   for (const key of await page.$$eval('#shapes button', b => b.map(x => x.dataset.shape))) {
     await page.click(`#shapes button[data-shape="${key}"]`);
@@ -56,12 +59,13 @@ try {
   }
   for (const box of await page.$$('#toggles input')) {
     await page.waitForTimeout(200);
-    const before = await look(page);
+    const before = await look(page), label = '.' + (await box.getAttribute('id')).slice(5);
+    before.hidden = /mark|tag/.test(label) && await page.$$eval(label, m => !m.every(x => x.hidden));
     await box.click();
     await page.waitForTimeout(300);
     const name = await box.getAttribute('id'), after = await look(page);
     // The marks are page elements over the canvas: they are asked by their visibility.
-    const changed = name === 'show-marks' ? await page.$$eval('.mark', m => m.every(x => x.hidden)) : after.sum !== before.sum;
+    const changed = /mark|tag/.test(name) ? await page.$$eval('.' + name.slice(5), m => m.every(x => x.hidden)) === before.hidden : after.sum !== before.sum;
     expect(changed, `${name} changes the view`);
     await box.click();
   }
@@ -76,20 +80,20 @@ try {
     const box = await (await page.$('#canvas-box canvas')).boundingBox();
     await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
     await page.waitForTimeout(200);
-    expect(/^Panel \d+$/.test(await page.textContent('#panel-card h3')), 'a click on the bag shows the panel');
+    expect(/^Panel P\d+$/.test(await page.textContent('#panel-card h3')), 'a click on the bag shows the panel');
     expect(await page.$('#panel-card svg path') !== null, 'with its flat piece');
     expect((await page.textContent('#readout')).length > 0, 'the readout says what lies under the pointer');
     await page.screenshot({path: join(folder, 'chosen.png')});
-    const neighbour = await page.$('#panel-card [data-neighbour]');
+    const neighbour = await page.$('#panel-card [data-neighbour]:not([data-neighbour="-1"])');
     if (neighbour) {
       const id = Number(await neighbour.getAttribute('data-neighbour'));
       await neighbour.click();
-      expect(await page.textContent('#panel-card h3') === `Panel ${id + 1}`, 'a click on a neighbour goes there');
+      expect(await page.textContent('#panel-card h3') === `Panel ${nameOf(id)}`, 'a click on a neighbour goes there');
     }
     await page.focus('.piece');
     await page.keyboard.press('Enter');
     const chosen = Number(await page.getAttribute('.piece', 'data-panel'));
-    expect(await page.textContent('#panel-card h3') === `Panel ${chosen + 1}`, 'Enter on a flat piece chooses it');
+    expect(await page.textContent('#panel-card h3') === `Panel ${nameOf(chosen)}`, 'Enter on a flat piece chooses it');
   }
   await page.focus('#canvas-box canvas');
   const still = await look(page);
@@ -107,7 +111,8 @@ try {
     const wide = await other.page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
     expect(wide <= 0, `${name}: nothing stands out of the page (${wide} px)`);
     await other.page.screenshot({path: join(folder, name + '.png')});
-    await other.page.screenshot({path: join(folder, name + '-full.png'), fullPage: true});
+    for (const id of ['view', 'flat', 'figures', 'pictures'])
+      if (await other.page.isVisible('#' + id)) await other.page.locator('#' + id).screenshot({path: join(folder, `${name}-${id}.png`)});
     expect((await look(other.page)).drawn > 0.03, `${name}: the canvas is not blank`);
     expect(other.trouble.length === 0, `${name}: no console error` + other.trouble.map(t => '\n       ' + t).join(''));
     await other.page.close();

@@ -6,6 +6,7 @@
 #include "arcsim/base/error.hpp"
 #include "formwork/report/pictures.hpp"
 #include "tests/formwork/synthetic_bag.hpp"
+#include "tests/output_folder.hpp"
 
 using namespace formwork;
 
@@ -99,9 +100,7 @@ TEST_CASE("a picture into a folder that cannot be written is an input error") {
 }
 
 TEST_CASE("every picture of the stages can be drawn and written") {
-    const std::filesystem::path folder =
-        std::filesystem::temp_directory_path() / "formwork_pictures";
-    std::filesystem::create_directories(folder);
+    const OutputFolder folder("pictures");
     const SyntheticBag bag = make_synthetic_bag(96, 56);
     const Segmentation& g = bag.segmentation;
     const Vector3d up(0, 0, 1);

@@ -6,9 +6,10 @@
 #include <sstream>
 
 #include "formwork/report/base64.hpp"
-#include "formwork/report/pictures.hpp"
 #include "formwork/report/report.hpp"
+#include "formwork/report/report_pictures.hpp"
 #include "tests/formwork/synthetic_report.hpp"
+#include "tests/output_folder.hpp"
 
 using namespace formwork;
 
@@ -34,9 +35,8 @@ TEST_CASE(
     "the report is one file without references to other places, below 6 MB for a column of 6 000 "
     "nodes") {
     const ReportInput input = synthetic_report(96, 56);
-    const std::filesystem::path path =
-        std::filesystem::temp_directory_path() / "formwork_pictures" / "report.html";
-    std::filesystem::create_directories(path.parent_path());
+    const OutputFolder folder("report");
+    const std::filesystem::path path = folder / "report.html";
     write_report(input, path);
     CHECK(std::filesystem::file_size(path) < 6'000'000);
     std::ifstream in(path, std::ios::binary);
@@ -50,6 +50,7 @@ TEST_CASE(
           html.find("{{title}}"));  // no place of the template is left open: npos both
 
     const nlohmann::json data = data_of(html);
+    CHECK(data["pictures"].size() == 13);
     CHECK(data["mesh"]["shapes"].size() == 3);
     CHECK(data["panels"].size() == 5);
     CHECK(data["fields"].size() == 12);
@@ -81,4 +82,27 @@ TEST_CASE("a run that stopped early has a report of what there is") {
 
     early.inflated_strain.pop_back();
     CHECK_THROWS_AS(compose_report(early), std::invalid_argument);
+}
+
+TEST_CASE("the viewer files of a finished run stand beside its stages") {
+    const OutputFolder folder("viewer_run");
+    const ReportInput input = synthetic_report(16, 8);
+    const std::vector<std::string> names = write_viewer_files(input, folder / "");
+    CHECK(names.size() == 5);
+    for (const std::string& name : names) CHECK(std::filesystem::file_size(folder / name) > 1000);
+}
+
+TEST_CASE("the sewing order is told by the names on the sheets") {
+    PanelSet set;
+    set.seams.resize(3);
+    set.seams[1].side[0].length = 0.2421;
+    set.seams[1].side[0].panel = 0;
+    set.seams[1].side[1].panel = 4;
+    set.seams[2].side[0].panel = 4;
+    const std::vector<ReportStep> steps =
+        report_steps(set, {{StepKind::join, 1, {0, 4}, 0}, {StepKind::hem, 2, {4, -1}, 0}});
+    CHECK(steps[0].text == "S02: join P01 to P05, 242 mm");
+    CHECK(steps[0].panels == std::vector<int>{0, 4});
+    CHECK(steps[1].text == "R03: hem the rim of P05, 0 mm");
+    CHECK(steps[1].panels == std::vector<int>{4});
 }

@@ -9,14 +9,11 @@
 #include "formwork/report/surface_lines.hpp"
 #include "formwork/report/vtu.hpp"
 #include "tests/formwork/synthetic_bag.hpp"
+#include "tests/output_folder.hpp"
 
 using namespace formwork;
 
 namespace {
-
-std::filesystem::path folder() {
-    return std::filesystem::temp_directory_path() / "formwork_viewer_files";
-}
 
 std::uint32_t u32(const std::string& s, size_t at) {
     std::uint32_t v;
@@ -27,12 +24,13 @@ std::uint32_t u32(const std::string& s, size_t at) {
 }  // namespace
 
 TEST_CASE("a GLB holds the surface in metres with y up, its colours and its seams") {
+    const OutputFolder folder("viewer_files");
     const SyntheticBag bag = make_synthetic_bag(16, 8);
     const Segmentation& g = bag.segmentation;
     Paint paint;
     for (const int p : g.panel) paint.colour.push_back(panel_colours(g)[p]);
-    write_glb(folder() / "panels.glb", bag.sewn, paint, seam_lines(g, bag.sewn), {0, 0, 1}, "bag");
-    const std::string file = arcsim::read_text_file(folder() / "panels.glb");
+    write_glb(folder / "panels.glb", bag.sewn, paint, seam_lines(g, bag.sewn), {0, 0, 1}, "bag");
+    const std::string file = arcsim::read_text_file(folder / "panels.glb");
     REQUIRE(file.substr(0, 4) == "glTF");
     CHECK(u32(file, 8) == file.size());
     const std::uint32_t n = u32(file, 12);
@@ -46,24 +44,25 @@ TEST_CASE("a GLB holds the surface in metres with y up, its colours and its seam
     CHECK(root["meshes"][0]["primitives"][1]["mode"] == 1);
     CHECK(root["buffers"][0]["byteLength"] == u32(file, 20 + n));
     CHECK_THROWS_AS(
-        write_glb(folder() / "x.glb", g.mesh, paint_classes({0}, {}, ""), {}, {0, 0, 1}, ""),
+        write_glb(folder / "x.glb", g.mesh, paint_classes({0}, {}, ""), {}, {0, 0, 1}, ""),
         std::invalid_argument);
 }
 
 TEST_CASE("a VTU holds nodes, faces and every part of the strain") {
+    const OutputFolder folder("viewer_files");
     const SyntheticBag bag = make_synthetic_bag(16, 8);
     const Segmentation& g = bag.segmentation;
     std::vector<VtuArray> face = strain_arrays(bag.strain);
     face.push_back(integer_array("panel", g.panel));
-    write_vtu(folder() / "inflated.vtu", bag.inflated, {vector_array("rest", g.mesh.x)}, face);
-    write_pvd(folder() / "series.pvd", {{0.0, "inflated.vtu"}, {0.04, "inflated.vtu"}});
-    const std::string file = arcsim::read_text_file(folder() / "inflated.vtu");
+    write_vtu(folder / "inflated.vtu", bag.inflated, {vector_array("rest", g.mesh.x)}, face);
+    write_pvd(folder / "series.pvd", {{0.0, "inflated.vtu"}, {0.04, "inflated.vtu"}});
+    const std::string file = arcsim::read_text_file(folder / "inflated.vtu");
     CHECK(file.find("NumberOfPoints=\"" + std::to_string(g.mesh.n_nodes()) + "\"") !=
           std::string::npos);
     for (const char* name :
          {"lambda1", "lambda2", "direction", "eps_uv", "tension1", "state", "panel", "rest"})
         CHECK(file.find(std::string("Name=\"") + name + "\"") != std::string::npos);
     CHECK(file.size() < 200.0 * g.mesh.n_faces());
-    CHECK_THROWS_AS(write_vtu(folder() / "x.vtu", g.mesh, {{"short", 1, {1.0}}}, {}),
+    CHECK_THROWS_AS(write_vtu(folder / "x.vtu", g.mesh, {{"short", 1, {1.0}}}, {}),
                     std::invalid_argument);
 }

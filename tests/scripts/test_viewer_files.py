@@ -88,8 +88,8 @@ def main():
     program = Path(sys.argv[1]) / "tests" / "test_formwork"
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([program, "a VTU holds*,a GLB holds*"], check=True, stdout=subprocess.DEVNULL,
-                       env={**os.environ, "TMPDIR": folder})
-        files = Path(folder) / "formwork_viewer_files"
+                       env={**os.environ, "FORMWORK_TEST_OUTPUT": folder})
+        files = Path(folder) / "viewer_files"
         n_points, n_cells = check_vtu(files / "inflated.vtu")
         check_with_vtk(files / "inflated.vtu", n_points, n_cells)
         check_glb(files / "panels.glb")

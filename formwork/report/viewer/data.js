@@ -16,35 +16,36 @@ const Data = (() => {
     return out;
   }
 
-  function integers(a) {
+  function plain(a) {
     const b = bytes(a.data).buffer;
-    return a.type === 'u16' ? new Uint16Array(b) : new Uint32Array(b);
+    return a.type === 'u16' ? new Uint16Array(b) : a.type === 'f32' ? new Float32Array(b) : new Uint32Array(b);
   }
 
   // Colours of a map, 0..1 per part, at 256 even steps.
   const maps = {};
   for (const name of Object.keys(raw.maps)) maps[name] = Float32Array.from(bytes(raw.maps[name]), v => v / 255);
 
-  const faces = integers(raw.mesh.faces);
+  const faces = plain(raw.mesh.faces);
   const shapes = raw.mesh.shapes.map(s => {
     const axes = s.x.map(numbers), x = new Float64Array(3 * axes[0].length);
     for (let k = 0; k < 3; ++k) axes[k].forEach((v, i) => { x[3 * i + k] = v; });
     return {key: s.key, name: s.name, x};
   });
-  const panelOfFace = raw.mesh.panel ? integers(raw.mesh.panel) : null;
-  const theta = raw.mesh.theta ? numbers(raw.mesh.theta) : null;
+  const panelOfFace = raw.mesh.panel ? plain(raw.mesh.panel) : null;
+  const crosses = raw.mesh.crosses ? {faces: plain(raw.mesh.crosses.faces), parts: plain(raw.mesh.crosses.parts)} : null;
   const fields = raw.fields.map(f => ({...f, values: numbers(f.values)}));
 
-  // Who is sewn to whom, and how long the seams are together, m.
-  const neighbours = raw.panels.map(() => new Map());
-  for (const s of raw.mesh.seams || []) {
+  // Per panel the seams around it: the panel beyond (-1: a rim), the seam and its length, m.
+  const neighbours = raw.panels.map(() => []);
+  (raw.mesh.seams || []).forEach((s, seam) => {
     const [a, b] = s.panels;
-    if (a < 0 || b < 0 || a === b || !neighbours[a] || !neighbours[b]) continue;
-    neighbours[a].set(b, (neighbours[a].get(b) || 0) + s.length);
-    neighbours[b].set(a, (neighbours[b].get(a) || 0) + s.length);
-  }
+    if (neighbours[a]) neighbours[a].push({panel: b, seam, name: s.name, length: s.length});
+    if (neighbours[b] && a !== b) neighbours[b].push({panel: a, seam, name: s.name, length: s.length});
+  });
+  for (const list of neighbours) list.sort((p, q) => p.panel - q.panel || p.seam - q.seam);
   return {
-    raw, faces, shapes, panelOfFace, theta, fields, maps, neighbours, panels: raw.panels,
-    seams: raw.mesh.seams || [], singularities: raw.mesh.singularities || [], crossFaces: raw.mesh.cross_faces || [],
+    raw, faces, shapes, panelOfFace, crosses, fields, maps, neighbours, panels: raw.panels,
+    seams: raw.mesh.seams || [], singularities: raw.mesh.singularities || [],
+    labelFaces: raw.mesh.label_faces || [],
   };
 })();

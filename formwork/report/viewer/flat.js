@@ -36,13 +36,13 @@ const Flat = (() => {
 
   function piece(panel, d, dx, dy, letter) {
     const path = 'M' + d.points.map(p => (p[0] + dx).toFixed(2) + ' ' + (p[1] + dy).toFixed(2)).join('L') + 'Z';
-    const at = roomiest(d), x = at.x + dx, y = at.y + dy, a = Math.min(0.18 * d.h, 2.2 * letter), head = 0.3 * letter;
+    const at = roomiest(d), size = Math.min(letter, 0.3 * d.w, 0.3 * d.h), a = Math.min(0.16 * d.h, 2 * size), head = 0.35 * size;
+    const x = at.x + dx, y = at.y + dy - 0.6 * size;
     const line = (x1, y1, x2, y2) => svg('line', {x1, y1, x2, y2});
-    return svg('g', {class: 'piece', 'data-panel': panel.id, tabindex: 0, role: 'button', 'aria-label': `Panel ${panel.id + 1}`},
+    return svg('g', {class: 'piece', 'data-panel': panel.id, tabindex: 0, role: 'button', 'aria-label': `Panel ${panel.name}`},
         svg('path', {d: path, fill: `color-mix(in srgb, ${panel.colour} 72%, white)`}),
-        svg('text', {x: x - 0.15 * letter, y: y + 0.36 * letter, 'font-size': letter, 'text-anchor': 'end'}, String(panel.id + 1)),
-        line(x + 0.35 * letter, y + a, x + 0.35 * letter, y - a), line(x + 0.35 * letter, y - a, x + 0.35 * letter - head, y - a + head),
-        line(x + 0.35 * letter, y - a, x + 0.35 * letter + head, y - a + head));
+        svg('text', {x, y: y + a + 1.05 * size, 'font-size': size, 'text-anchor': 'middle'}, panel.name),
+        line(x, y + a, x, y - a), line(x, y - a, x - head, y - a + head), line(x, y - a, x + head, y - a + head));
   }
 
   function rows(boxes, width, gap) {
@@ -84,16 +84,16 @@ const Flat = (() => {
         svg('text', {x: bar + 8 * unit, y: y + 5 * unit, 'font-size': 14 * unit}, show(bar) + ' mm')));
     for (const g of drawing.querySelectorAll('.piece')) {
       const id = Number(g.dataset.panel);
-      g.addEventListener('click', () => choose(id));
-      g.addEventListener('keydown', e => { if (e.key === 'Enter' || e.key === ' ') { e.preventDefault(); choose(id); } });
+      g.addEventListener('click', () => choose([id]));
+      g.addEventListener('keydown', e => { if (e.key === 'Enter' || e.key === ' ') { e.preventDefault(); choose([id]); } });
     }
     box.append(drawing);
   }
 
-  function card(box, panel, neighbours, choose) {
+  function card(box, panel, panels, neighbours, choose, showSeam) {
     box.replaceChildren();
     if (!panel) { box.append(element('p', {class: 'kind'}, 'Click a panel to see its piece and its neighbours.')); return; }
-    box.append(element('h3', {}, `Panel ${panel.id + 1}`));
+    box.append(element('h3', {}, `Panel ${panel.name}`));
     if (panel.outline && panel.outline.length > 2) {
       const d = drawn(panel), pad = 0.04 * Math.max(d.w, d.h);
       box.append(svg('svg', {viewBox: `${-pad} ${-pad} ${d.w + 2 * pad} ${d.h + 2 * pad}`},
@@ -103,13 +103,16 @@ const Flat = (() => {
                          ...entry('distortion, largest', `${show(100 * panel.max_distortion, 2)} %`),
                          ...entry('grain off strain', `${show(panel.grain_deviation_deg, 2)}°`)));
     }
-    const list = [...neighbours.entries()].sort((a, b) => a[0] - b[0]);
-    if (list.length) {
-      box.append(element('p', {class: 'kind'}, 'Sewn to'));
-      box.append(element('div', {class: 'neighbours'}, ...list.map(([id, length]) =>
-          element('button', {type: 'button', 'data-neighbour': id, onclick: () => choose(id)}, `${id + 1} · ${show(1000 * length, 3)} mm`))));
+    if (neighbours.length) {
+      box.append(element('p', {class: 'kind'}, 'Its seams, and where they lead'));
+      box.append(element('div', {class: 'neighbours'}, ...neighbours.map(n => {
+        const text = `${n.name}${n.panel < 0 ? ' (rim)' : ' to ' + panels[n.panel].name} · ${show(1000 * n.length, 3)} mm`;
+        const see = () => showSeam(n.seam), leave = () => showSeam(-1);
+        return element('button', {type: 'button', 'data-neighbour': n.panel, onmouseenter: see, onfocus: see, onmouseleave: leave, onblur: leave,
+                                  onclick: () => n.panel >= 0 && choose([n.panel])}, text);
+      })));
     }
-    box.append(element('p', {}, element('button', {type: 'button', onclick: () => choose(-1)}, 'Show all panels')));
+    box.append(element('p', {}, element('button', {type: 'button', onclick: () => choose([])}, 'Show all panels')));
   }
 
   function table(box, panels, neighbours, choose) {
@@ -121,9 +124,9 @@ const Flat = (() => {
       const d = drawn(p);
       const cell = text => element('td', {class: 'number'}, text);
       body.append(element('tr', {'data-panel': p.id},
-          element('td', {}, element('button', {type: 'button', onclick: () => choose(p.id)}, String(p.id + 1))),
+          element('td', {}, element('button', {type: 'button', onclick: () => choose([p.id])}, p.name)),
           cell(`${show(d.w, 3)} × ${show(d.h, 3)}`), cell(show(1e4 * p.area, 3)), cell(show(100 * p.max_distortion, 2)),
-          cell(show(p.grain_deviation_deg, 2)), element('td', {}, [...neighbours[p.id].keys()].sort((a, b) => a - b).map(i => i + 1).join(', '))));
+          cell(show(p.grain_deviation_deg, 2)), element('td', {}, [...new Set(neighbours[p.id].filter(n => n.panel >= 0).map(n => panels[n.panel].name))].join(', '))));
     }
     box.append(element('table', {}, element('thead', {}, element('tr', {}, ...head.map((h, i) =>
         element('th', {class: i && i < 5 ? 'number' : ''}, h)))), body));

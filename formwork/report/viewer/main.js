@@ -7,17 +7,22 @@
 
   Page.theme();
   Page.keyFigures(summary);
+  Page.comparison(summary && summary.sew);
   Page.figureTables(summary);
   Page.convergencePlots(raw.convergence);
   Page.pictures(raw.pictures);
-  Page.model(scene, raw.notes);
+  const said = key => Object.values(summary || {}).flatMap(s => s && Array.isArray(s[key]) ? s[key] : []);
+  Page.model(scene, [...said('violations').map(v => 'Bound not met: ' + v), ...said('warnings'), ...raw.notes]);
   Page.scene(raw.scene);
   byId('made-by').textContent = `Made by formwork ${raw.version}. Lengths in mm, liquid in litres; everything else carries its unit.`;
 
-  function choose(panel) {
-    if (view) view.setChosen(panel);
-    for (const node of document.querySelectorAll('[data-panel]')) node.classList.toggle('chosen', Number(node.dataset.panel) === panel);
-    Flat.card(byId('panel-card'), Data.panels.find(p => p.id === panel), Data.neighbours[panel] || new Map(), choose);
+  const showSeam = seam => { if (view) view.setSeam(seam); };
+  function choose(panels, seam = -1) {
+    if (view) view.setChosen(panels);
+    showSeam(seam);
+    for (const node of document.querySelectorAll('[data-panel]')) node.classList.toggle('chosen', panels.includes(Number(node.dataset.panel)));
+    const first = panels.length === 1 ? Data.panels.find(p => p.id === panels[0]) : null;
+    Flat.card(byId('panel-card'), first, Data.panels, first ? Data.neighbours[panels[0]] : [], choose, showSeam);
   }
 
   function legend(field) {
@@ -43,7 +48,7 @@
   function hover(hit) {
     const out = [], field = Data.fields.find(f => f.key === byId('colour-by').value);
     if (hit) {
-      if (Data.panelOfFace) out.push(`panel ${Data.panelOfFace[hit.face] + 1}`);
+      if (Data.panelOfFace) out.push(`panel ${Data.panels[Data.panelOfFace[hit.face]].name}`);
       if (field) {
         const v = field.per_node ? [0, 1, 2].reduce((s, k) => s + field.values[Data.faces[3 * hit.face + k]] / 3, 0) : field.values[hit.face];
         out.push(field.classes.length ? field.classes[Math.round(v)] : `${field.title} ${show(v, 4)} ${field.unit === '-' ? '' : field.unit}`);
@@ -60,13 +65,15 @@
     byId('colour-by').value = key;
     view.setField(key);
     legend(Data.fields.find(f => f.key === key));
+    const names = byId('show-tag');   // the colours of panels mean nothing without their names
+    if (names && names.checked !== (key === 'panel')) names.click();
   }
 
   function threeDimensional() {
     if (!Data.faces.length) return;
     byId('view').hidden = false;
     try {
-      view = View.create(byId('canvas-box'), {click: choose, hover, key: i => Data.shapes[i] && setShape(Data.shapes[i].key)});
+      view = View.create(byId('canvas-box'), {click: panel => choose(panel >= 0 ? [panel] : []), hover, key: i => Data.shapes[i] && setShape(Data.shapes[i].key)});
     } catch (error) {
       byId('canvas-box').replaceChildren(element('p', {class: 'warning'}, 'The 3-D view needs WebGL, which this browser does not offer. The pictures below show the same.'));
       return;
@@ -91,7 +98,8 @@
     };
     if (Data.seams.length) toggle('seams', 'seams and rims', true);
     if (view.hasCross) toggle('cross', 'cross field', false);
-    if (Data.singularities.length) toggle('marks', 'singularities, by valence', true);
+    if (Data.singularities.length) toggle('mark', 'singularities, by valence', true);
+    if (Data.labelFaces.length) toggle('tag', 'names of the panels', false);
     if (!byId('toggles').querySelector('input')) byId('toggles').hidden = true;
     byId('save-view').addEventListener('click', () => element('a', {href: view.picture(), download: 'view.png'}).click());
     const has = key => Data.shapes.some(s => s.key === key);
@@ -116,8 +124,8 @@
     byId('sewing').hidden = false;
     for (const s of raw.sewing)
       byId('sewing-steps').append(element('li', {}, s.panels.length ?
-          element('button', {type: 'button', onclick: () => choose(s.panels[s.panels.length - 1])}, s.text) : s.text));
+          element('button', {type: 'button', onclick: () => { choose(s.panels, s.seam); byId('view').scrollIntoView({block: 'nearest'}); }}, s.text) : s.text));
   }
   threeDimensional();
-  choose(-1);
+  choose([]);
 })();

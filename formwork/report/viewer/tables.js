@@ -60,15 +60,19 @@ const Page = (() => {
     return {name: words.charAt(0).toUpperCase() + words.slice(1), unit: ending ? ending[1] : '', factor: 1};
   }
   function value(v, about) {
-    if (Array.isArray(v)) return v.map(x => value(x, about)).join(', ');
+    if (Array.isArray(v)) {   // a component that is rounding noise beside the others is 0
+      const top = Math.max(...v.map(x => typeof x === 'number' ? Math.abs(x) : 0));
+      return v.map(x => value(typeof x === 'number' && Math.abs(x) < 1e-9 * top ? 0 : x, about)).join(', ');
+    }
     return typeof v === 'number' ? show(v * about.factor) : show(v);
   }
 
+  const hidden = ['residual_history', 'violations', 'warnings', 'compare'];   // shown elsewhere
   const stageNames = {inflate: 'Inflated bag', segment: 'Segmentation', panels: 'Panels', sew: 'Sewn bag'};
   function rows(object, body, prefix = '') {
     for (const [key, v] of Object.entries(object)) {
-      if (v === null) continue;
-      const about = describe(key), name = prefix ? prefix + ': ' + about.name.toLowerCase() : about.name;
+      if (v === null || hidden.includes(key)) continue;
+      const about = describe(key.replace(/^-(?=\d)/, '\u2212')), name = prefix ? prefix + ': ' + about.name.toLowerCase() : about.name;
       if (typeof v === 'object' && !Array.isArray(v)) {
         rows(v, body, name);
       } else if (!Array.isArray(v) || (v.length && v.length < 12 && typeof v[0] !== 'object')) {
@@ -95,6 +99,22 @@ const Page = (() => {
       rows(loose, body);
       box.append(element('div', {}, element('h3', {}, 'The run'), element('table', {}, body)));
     }
+  }
+
+  // The panels as cut against the same panels with other grain: what the cut is for.
+  function comparison(sew) {
+    if (!sew || !sew.compare || !Object.keys(sew.compare).length || typeof sew.mean_abs_shear !== 'number') return;
+    const all = {aligned: sew, ...sew.compare};
+    const top = Math.max(...Object.values(all).map(c => c.mean_abs_shear || 0)) || 1, body = element('tbody');
+    for (const [name, c] of Object.entries(all)) {
+      const cell = (v, factor) => element('td', {class: 'number'}, typeof v === 'number' ? show(v * factor, 3) : '–');
+      body.append(element('tr', {}, element('td', {}, name === 'aligned' ? 'as cut, along the strain' : 'grain ' + name.replace(/_/g, ' ') + (/\d$/.test(name) ? '\u00b0' : ''),
+          element('span', {class: 'meter', style: `width:${100 * (c.mean_abs_shear || 0) / top}%`})),
+          cell(c.mean_abs_shear, 100), cell(c.max_abs_shear, 100), cell(c.shape_rms_m, 1e3)));
+    }
+    const head = ['The same pieces', 'mean shear, %', 'largest, %', 'off the cut surface, mm'];
+    document.getElementById('comparison').append(element('h3', {}, 'What the grain does'), element('div', {class: 'scroll'}, element('table', {},
+        element('thead', {}, element('tr', {}, ...head.map((h, i) => element('th', {class: i ? 'number' : ''}, h)))), body)));
   }
 
   function keyFigures(summary) {
@@ -141,7 +161,7 @@ const Page = (() => {
     drawn.forEach((c, k) => {
       const points = c.residual.map((r, i) => `${x(i).toFixed(1)},${y(r).toFixed(1)}`).join(' ');
       plot.append(svg('polyline', {points, fill: 'none', stroke: colours[k % 5], 'stroke-width': 2}));
-      plot.append(svg('text', {x: w - right + 8, y: Math.min(h - foot, y(c.residual[c.residual.length - 1]) + 4 + 14 * k), style: `fill:${colours[k % 5]}`}, c.name));
+      plot.append(svg('text', {x: x(c.residual.length - 1) + 8, y: Math.min(h - foot - 2, y(c.residual[c.residual.length - 1]) + 4), style: `fill:${colours[k % 5]}`}, c.name));
     });
     box.append(plot);
   }
@@ -195,5 +215,5 @@ const Page = (() => {
       document.dispatchEvent(new Event('themechange'));
     });
   }
-  return {element, svg, show, keyFigures, figureTables, convergencePlots, pictures, model, scene, theme};
+  return {element, svg, show, keyFigures, comparison, figureTables, convergencePlots, pictures, model, scene, theme};
 })();

@@ -50,7 +50,7 @@ const View = (() => {
     const radius = Math.hypot(...low.map((v, k) => high[k] - v)) / 2 || 1;
 
     const state = {shape: null, x: Float64Array.from(Data.shapes[0].x), normal: new Float64Array(3 * nNodes), field: 'panel',
-                   chosen: -1, seams: true, cross: false, marks: true};
+                   chosen: new Set(), seams: true, cross: false, seam: -1, labels: {mark: true, tag: false}};
     const lines = {};
 
     function lineSet(colour, width) {
@@ -65,43 +65,27 @@ const View = (() => {
       for (let i = 0; i + 1 < s.nodes.length; ++i) (s.panels[1] < 0 ? rimPairs : seamPairs).push([s.nodes[i], s.nodes[i + 1]]);
     if (seamPairs.length) lines.seams = lineSet(0x0c0e11, 3);
     if (rimPairs.length) lines.rims = lineSet(0x6b7278, 2);
+    if (Data.seams.length) { lines.seam = lineSet(0xff5a1f, 7); lines.seam.visible = false; }
 
-    // A cross is kept as parts of its face's edges at rest, so that it follows every shape.
-    const crosses = [];
-    if (Data.theta && Data.crossFaces.length) {
-      const rest = Data.shapes[0].x;
-      let area = 0;
-      const at = i => new THREE.Vector3(rest[3 * i], rest[3 * i + 1], rest[3 * i + 2]);
-      const frames = Data.crossFaces.map(f => {
-        const [a, b, c] = [0, 1, 2].map(k => at(Data.faces[3 * f + k]));
-        const e1 = b.clone().sub(a), e2 = c.clone().sub(a), n = e1.clone().cross(e2);
-        return {f, e1, e2, n};
-      });
-      for (let f = 0; f < nFaces; ++f) {
-        const [a, b, c] = [0, 1, 2].map(k => at(Data.faces[3 * f + k]));
-        area += b.sub(a).cross(c.sub(a)).length() / 2;
-      }
-      const size = 0.36 * Math.sqrt(area / Data.crossFaces.length);
-      for (const {f, e1, e2, n} of frames) {
-        const x = e1.clone().normalize(), y = n.clone().normalize().cross(x), det = n.lengthSq();
-        for (const turn of [0, Math.PI / 2]) {
-          const angle = Data.theta[f] + turn;
-          const d = x.clone().multiplyScalar(Math.cos(angle)).addScaledVector(y, Math.sin(angle)).multiplyScalar(size);
-          crosses.push({f, p: d.clone().cross(e2).dot(n) / det, q: e1.clone().cross(d).dot(n) / det});
-        }
-      }
-      lines.cross = lineSet(0x14202c, 1.6);
-    }
+    if (Data.crosses) lines.cross = lineSet(0x14202c, 1.6);
 
-    const marks = Data.singularities.map(s => {
-      const valence = 4 - s.index4, node = document.createElement('span');
-      node.className = 'mark';
-      node.textContent = valence;
-      node.title = `singularity of valence ${valence}, index ${s.index4 > 0 ? '+' : '\u2212'}${Math.abs(s.index4)}/4`;
-      node.style.background = s.index4 > 0 ? '#c24a05' : '#0d5cab';
+    function label(name, text, title, colour, at) {   // at: nodes whose mean it marks
+      const node = document.createElement('span');
+      node.className = name;
+      node.textContent = text;
+      node.title = title;
+      if (colour) node.style.background = colour;
       box.append(node);
-      return {node, at: s.node, hidden: false};
+      return {node, at, kind: name, hidden: false};
+    }
+    const marks = Data.singularities.map(s => {
+      const valence = 4 - s.index4, title = `singularity of valence ${valence}, index ${s.index4 > 0 ? '+' : '\u2212'}${Math.abs(s.index4)}/4`;
+      return label('mark', valence, title, s.index4 > 0 ? '#c24a05' : '#0d5cab', [s.node]);
     });
+    Data.labelFaces.forEach((f, p) => {
+      if (f >= 0 && Data.panels[p]) marks.push(label('tag', Data.panels[p].name, '', null, Array.from(Data.faces.slice(3 * f, 3 * f + 3))));
+    });
+    const place = m => new THREE.Vector3(...[0, 1, 2].map(k => m.at.reduce((s, i) => s + state.x[3 * i + k] / m.at.length, 0)));
 
     function updateShape() {
       const {x, normal} = state, p = positions.array, q = normals.array, faces = Data.faces;
@@ -126,18 +110,29 @@ const View = (() => {
       const raised = i => [0, 1, 2].map(k => x[3 * i + k] + lift * normal[3 * i + k]);
       for (const [name, pairs] of [['seams', seamPairs], ['rims', rimPairs]])
         if (lines[name]) lines[name].geometry.setPositions(pairs.flatMap(([a, b]) => [...raised(a), ...raised(b)]));
+      updateSeam();
       if (lines.cross) {
         const out = [];
-        for (const {f, p: s, q: t} of crosses) {
-          const [a, b, c] = [0, 1, 2].map(k => 3 * faces[3 * f + k]);
-          for (const sign of [-1, 1])
-            for (let k = 0; k < 3; ++k) {
-              const centre = (x[a + k] + x[b + k] + x[c + k]) / 3 + 2 * lift * normal[a + k];
-              out.push(centre + sign * (s * (x[b + k] - x[a + k]) + t * (x[c + k] - x[a + k])));
-            }
-        }
+        Data.crosses.faces.forEach((f, i) => {
+          const [a, b, c] = [0, 1, 2].map(k => 3 * faces[3 * f + k]), parts = Data.crosses.parts;
+          for (let arm = 4 * i; arm < 4 * i + 4; arm += 2)
+            for (const sign of [-1, 1])
+              for (let k = 0; k < 3; ++k) {
+                const centre = (x[a + k] + x[b + k] + x[c + k]) / 3 + 2 * lift * normal[a + k];
+                out.push(centre + sign * (parts[arm] * (x[b + k] - x[a + k]) + parts[arm + 1] * (x[c + k] - x[a + k])));
+              }
+        });
         lines.cross.geometry.setPositions(out);
       }
+    }
+
+    function updateSeam() {
+      const s = Data.seams[state.seam];
+      if (!lines.seam) return;
+      lines.seam.visible = Boolean(s);
+      if (!s) return;
+      const {x, normal} = state, raised = i => [0, 1, 2].map(k => x[3 * i + k] + 0.003 * radius * normal[3 * i + k]);
+      lines.seam.geometry.setPositions(s.nodes.slice(1).flatMap((b, i) => [...raised(s.nodes[i]), ...raised(b)]));
     }
 
     function faceColour(f, field) {
@@ -152,7 +147,7 @@ const View = (() => {
       const field = Data.fields.find(f => f.key === state.field) || 'panel', c = colours.array;
       const nodeColours = field.per_node ? Array.from(field.values, v => colourOfMap(field.map, (v - field.low) / (field.high - field.low))) : null;
       for (let f = 0; f < nFaces; ++f) {
-        const faint = state.chosen >= 0 && Data.panelOfFace && Data.panelOfFace[f] !== state.chosen;
+        const faint = state.chosen.size && Data.panelOfFace && !state.chosen.has(Data.panelOfFace[f]);
         const whole = nodeColours ? null : faceColour(f, field);
         for (let k = 0; k < 3; ++k) {
           let rgb = whole || nodeColours[Data.faces[3 * f + k]];
@@ -173,16 +168,16 @@ const View = (() => {
 
     function placeMarks() {
       for (const m of marks) {
-        const v = new THREE.Vector3(...[0, 1, 2].map(k => state.x[3 * m.at + k])).project(camera);
+        const v = place(m).project(camera);
         m.node.style.left = (v.x + 1) / 2 * box.clientWidth + 'px';
         m.node.style.top = (1 - v.y) / 2 * box.clientHeight + 'px';
-        m.node.hidden = !state.marks || m.hidden || Math.abs(v.x) > 1 || Math.abs(v.y) > 1;
+        m.node.hidden = !state.labels[m.kind] || m.hidden || Math.abs(v.x) > 1 || Math.abs(v.y) > 1;
       }
     }
     // Which marks lie behind the bag: asked of the triangles when the view has come to rest.
     function hideMarks() {
       for (const m of marks) {
-        const at = new THREE.Vector3(...[0, 1, 2].map(k => state.x[3 * m.at + k])), v = at.clone().project(camera);
+        const at = place(m), v = at.clone().project(camera);
         const hit = pick((v.x + 1) / 2 * box.clientWidth, (1 - v.y) / 2 * box.clientHeight);
         m.hidden = Boolean(hit) && hit.distance < camera.position.distanceTo(at) - 0.02 * radius;
       }
@@ -198,7 +193,7 @@ const View = (() => {
         renderer.render(scene, camera);
         placeMarks();
         clearTimeout(settle);
-        if (marks.length && state.marks) settle = setTimeout(hideMarks, 120);
+        if (marks.length) settle = setTimeout(hideMarks, 120);
       });
     }
     controls.addEventListener('change', draw);
@@ -262,10 +257,11 @@ const View = (() => {
       step(begin);
     }
     function setField(key) { state.field = key; updateColours(); draw(); }
-    function setChosen(panel) { state.chosen = panel; updateColours(); draw(); }
+    function setChosen(panels) { state.chosen = new Set(panels); updateColours(); draw(); }
+    function setSeam(seam) { state.seam = seam; updateSeam(); draw(); }
     function setVisible(name, on) {
       if (name === 'seams') for (const k of ['seams', 'rims']) { if (lines[k]) lines[k].visible = on; }
-      else if (name === 'marks') state.marks = on;
+      else if (name in state.labels) state.labels[name] = on;
       else if (lines[name]) lines[name].visible = on;
       draw();
     }
@@ -300,7 +296,7 @@ const View = (() => {
     resize();
     reset();
     updateColours();
-    return {setShape, setField, setChosen, setVisible, state, hasCross: Boolean(lines.cross),
+    return {setShape, setField, setChosen, setSeam, setVisible, state, hasCross: Boolean(lines.cross),
             picture: () => { renderer.render(scene, camera); return canvas.toDataURL('image/png'); }};
   }
   return {create, colourOfMap, classColours};

@@ -1,0 +1,226 @@
+#include "arcsim/solve/converged_stepper.hpp"
+
+#include <cmath>
+
+#include "arcsim/base/error.hpp"
+#include "arcsim/base/text.hpp"
+
+namespace arcsim {
+namespace {
+
+constexpr double default_max_stretch = 3;   // no cloth reaches it: beyond it a step has failed
+
+}  // namespace
+
+ConvergedStepper::ConvergedStepper(ClothModel& model, const StepParams& params, FillOrder order)
+    : ClothStepper(model, order), params_(params) {
+    is_damped_ = model.stretch->is_damped() || model.bend->is_damped();
+    if (is_damped_ || model.wind->acts()) viscous_ = std::make_unique<BlockMatrix>(system_.pattern());
+    size_ = model.size;
+}
+
+StepResult ConvergedStepper::step(State& s, double h) {
+    StepResult result;
+    result.iterations = 0;
+    const State start = s;
+    const double begin = s.time - h;
+    // Time as a binary fraction of h: `at` parts of h / 2^level are done.
+    long at = 0;
+    int level = 0;
+    while (at < (1L << level)) {
+        const double part = h / static_cast<double>(1L << level);
+        s.time = begin + (static_cast<double>(at) + 1) * part;
+        place_handles(s.time);
+        const double tried_from = previous_h_;
+        try {
+            advance(s, part, result);
+            ++at;
+            while (level > 0 && at % 2 == 0) at /= 2, --level;   // on a coarser grid again: try the longer step
+        } catch (const NumericalError& e) {
+            if (tried_from > 0 && params_.method == StepMethod::bdf2) {
+                restart();                                       // first without the memory, at the same length
+                continue;
+            }
+            if (level == params_.max_halvings) {
+                s = start;
+                restart();
+                throw NumericalError(std::string(e.what()) + ", also with the step halved " +
+                                     std::to_string(level) + " times");
+            }
+            ++level;
+            at *= 2;
+            result.halvings = std::max(result.halvings, level);
+        }
+    }
+    s.time = begin + h;
+    ++cost_.steps;
+    return result;
+}
+
+void ConvergedStepper::advance(State& s, double h, StepResult& result) {
+    const bool second_order = params_.method == StepMethod::bdf2 && previous_h_ == h;
+    const Problem p = second_order ? Problem{(4 * s.x - previous_x_) / 3, (4 * s.v - previous_v_) / 3, 2 * h / 3}
+                                   : Problem{s.x, s.v, h};
+    VectorXd v = solve(p, s, result);
+    VectorXd x = p.x + p.h * v;
+    check_state(x, params_.max_stretch.value_or(default_max_stretch));
+    previous_x_ = std::move(s.x);
+    previous_v_ = std::move(s.v);
+    previous_h_ = h;
+    s.x = std::move(x);
+    s.v = std::move(v);
+}
+
+double ConvergedStepper::residual(const Problem& p, const VectorXd& v, VectorXd& r) {
+    ClothModel& model = system_.model();
+    trial_.v = v;
+    trial_.x = p.x + p.h * v;
+    if (!trial_.x.allFinite()) {
+        r = VectorXd::Constant(v.size(), INFINITY);
+        return 1;
+    }
+    model.refresh(trial_.x);
+    g_.setZero(v.size());
+    model.stretch->add_gradient(trial_, g_);
+    model.bend->add_gradient(trial_, g_);
+    double scale = g_.cwiseAbs().maxCoeff();
+    model.gravity->add_gradient(trial_, g_);
+    model.wind->add_gradient(trial_, g_);
+    model.springs.add_gradient(trial_, g_);
+    if (is_damped_) {
+        viscous_->set_zero();
+        model.stretch->add_damping(trial_, *viscous_);
+        model.bend->add_damping(trial_, *viscous_);
+        viscous_->multiply_symmetric(v, product_);
+        g_ += product_;
+    }
+    r = p.h * g_;
+    for (int i = 0; i < model.n_nodes(); ++i) {
+        const Vector3d inertia = model.mass[i] * (v - p.v).segment<3>(3 * i);
+        r.segment<3>(3 * i) += inertia;
+        scale = std::max(scale, inertia.cwiseAbs().maxCoeff() / p.h);
+    }
+    for (const HeldNode& n : model.held) r.segment<3>(3 * n.node).setZero();
+    return scale;
+}
+
+bool ConvergedStepper::factorize(const Problem& p, const VectorXd& v, Tangent tangent) {
+    ClothModel& model = system_.model();
+    const double t0 = cpu_seconds();
+    trial_.v = v;
+    trial_.x = p.x + p.h * v;
+    model.refresh(trial_.x);   // the last residual may have been another trial's
+    BlockMatrix& A = system_.matrix();
+    A.set_zero();
+    model.stretch->add_hessian(trial_, tangent, A);
+    model.bend->add_hessian(trial_, tangent, A);
+    model.springs.add_hessian(trial_, tangent, A);
+    A.scale(p.h * p.h);
+    if (viscous_) {
+        viscous_->set_zero();
+        if (is_damped_) {
+            model.stretch->add_damping(trial_, *viscous_);
+            model.bend->add_damping(trial_, *viscous_);
+        }
+        model.wind->add_velocity_hessian(trial_, *viscous_);
+        A.add_scaled(*viscous_, p.h);
+    }
+    system_.add_mass();
+    zeros_.assign(model.held.size(), Vector3d::Zero());
+    minus_r_.setZero(v.size());
+    system_.hold(minus_r_, model.held, zeros_);
+    const double t1 = cpu_seconds();
+    const bool done = system_.solver().try_factorize(A);
+    cost_.assembly += t1 - t0;
+    cost_.factor += cpu_seconds() - t1;
+    ++cost_.factorizations;
+    return done;
+}
+
+void ConvergedStepper::correction(const VectorXd& r, VectorXd& dv) {
+    const double t0 = cpu_seconds();
+    minus_r_ = -r;
+    system_.solver().solve(minus_r_, dv);
+    cost_.solve += cpu_seconds() - t0;
+}
+
+double ConvergedStepper::mass_norm(const VectorXd& dv) const {
+    const VectorXd& mass = const_cast<ConvergedStepper*>(this)->system_.model().mass;
+    double sum = 0;
+    for (int i = 0; i < mass.size(); ++i) sum += mass[i] * dv.segment<3>(3 * i).squaredNorm();
+    return std::sqrt(sum);
+}
+
+void ConvergedStepper::fail(const std::string& why, const VectorXd& x) {
+    const auto [face, stretch] = system_.model().stretch->largest_stretch(x);
+    throw NumericalError(why + "; worst face " + std::to_string(face) + ", stretch " + format_short(stretch));
+}
+
+VectorXd ConvergedStepper::solve(const Problem& p, const State& start, StepResult& result) {
+    VectorXd v = start.v, r, r_next, dv, dv_next, v_next;
+    for (const HeldNode& n : system_.model().held)
+        v.segment<3>(3 * n.node) = (n.target - p.x.segment<3>(3 * n.node)) / p.h;
+    double scale = residual(p, v, r);
+    double last_move = INFINITY;   // m
+    const double small_move = 1e-6 * size_, rounding_move = 1e-13 * size_;
+    for (int iteration = 0; iteration < params_.max_iterations; ++iteration) {
+        result.residual = r.cwiseAbs().maxCoeff() / p.h / std::max(scale, 1e-300);
+        if (!std::isfinite(result.residual)) fail("the forces are not finite", p.x);
+        if (r.isZero(0) || (result.residual <= params_.tolerance && last_move <= small_move)) return v;
+        ++result.iterations;
+        bool accepted = false;
+        const bool try_exact = params_.tangent == StepTangent::exact;
+        for (const Tangent tangent : {Tangent::exact, Tangent::definite}) {
+            if (accepted || (tangent == Tangent::exact && !try_exact)) continue;
+            if (!factorize(p, v, tangent)) {
+                if (tangent == Tangent::definite)
+                    fail("the step's matrix is not positive definite at node " +
+                             std::to_string(system_.solver().breakdown().node), p.x + p.h * v);
+                continue;
+            }
+            correction(r, dv);
+            if (!dv.allFinite()) continue;
+            const double length = mass_norm(dv);
+            for (double alpha = 1; alpha > 1e-3 && !accepted; alpha /= 2) {
+                v_next = v + alpha * dv;
+                const double next_scale = residual(p, v_next, r_next);
+                if (!r_next.allFinite()) continue;
+                const double moved = alpha * p.h * dv.cwiseAbs().maxCoeff();
+                const bool solved = r_next.cwiseAbs().maxCoeff() / p.h <= params_.tolerance * next_scale;
+                if (!solved && moved > rounding_move) {
+                    const bool smaller = r_next.squaredNorm() <= std::pow(1 - alpha / 4, 2) * r.squaredNorm();
+                    if (!smaller) correction(r_next, dv_next);
+                    if (!smaller && !(mass_norm(dv_next) <= (1 - alpha / 4) * length)) continue;
+                }
+                accepted = true;
+                v.swap(v_next);
+                r.swap(r_next);
+                scale = next_scale;
+                last_move = moved;
+                if (moved <= rounding_move) return v;   // nothing smaller can be told apart
+            }
+        }
+        if (!accepted) fail("no step along Newton's direction helps, residual " + format_short(result.residual), p.x + p.h * v);
+    }
+    fail("no convergence in " + std::to_string(params_.max_iterations) + " iterations, residual " +
+             format_short(result.residual), p.x + p.h * v);
+}
+
+std::vector<double> ConvergedStepper::memory() const {
+    if (params_.method != StepMethod::bdf2 || previous_h_ == 0) return {};
+    std::vector<double> m{previous_h_};
+    m.insert(m.end(), previous_x_.begin(), previous_x_.end());
+    m.insert(m.end(), previous_v_.begin(), previous_v_.end());
+    return m;
+}
+
+void ConvergedStepper::set_memory(const std::vector<double>& m) {
+    restart();
+    if (m.empty()) return;
+    const auto n = static_cast<Eigen::Index>((m.size() - 1) / 2);
+    previous_h_ = m[0];
+    previous_x_ = Eigen::Map<const VectorXd>(m.data() + 1, n);
+    previous_v_ = Eigen::Map<const VectorXd>(m.data() + 1 + n, n);
+}
+
+}  // namespace arcsim

@@ -1,0 +1,147 @@
+#include <sys/wait.h>
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <sstream>
+
+#include "tests/paths.hpp"
+
+namespace fs = std::filesystem;
+using Catch::Contains;
+
+namespace {
+
+std::string text_of(const fs::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    return text.str();
+}
+
+struct Result {
+    int code;
+    std::string errors;
+};
+
+Result run(const std::string& arguments, const fs::path& folder) {
+    const fs::path log = folder / "stderr.txt";
+    const int status = std::system(("\"" + arcsim_program() + "\" " + arguments + " 2> " + log.string()).c_str());
+    return {WEXITSTATUS(status), text_of(log)};
+}
+
+fs::path fresh_folder(const std::string& name) {
+    const fs::path folder = fs::temp_directory_path() / ("formwork_arcsim_" + name);
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    return folder;
+}
+
+/// A stored scene with some of its text replaced, beside its meshes.
+fs::path changed_scene(const std::string& name, const fs::path& folder,
+                       const std::vector<std::pair<std::string, std::string>>& changes) {
+    for (const char* sub : {"meshes", "materials"})
+        fs::copy(test_data_dir() + "/arcsim/" + sub, folder / sub, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+    std::string text = text_of(test_data_dir() + "/arcsim/" + name + ".json");
+    for (const auto& [from, to] : changes) text = std::regex_replace(text, std::regex(from), to);
+    std::ofstream(folder / "scene.json") << text;
+    return folder / "scene.json";
+}
+
+}  // namespace
+
+TEST_CASE("the program writes frames, the scene and timing as ArcSim does") {
+    const fs::path dir = fresh_folder("files");
+    const fs::path scene = changed_scene("strip_iso", dir, {{"\"frame_time\": 0.4", "\"frame_time\": 0.02"},
+                                                            {"\"frame_steps\": 40", "\"frame_steps\": 2"},
+                                                            {"\"end_frame\": 5", "\"end_frame\": 3"}});
+    const Result r = run(scene.string() + " " + (dir / "out").string() + " --quiet", dir);
+    INFO(r.errors);
+    REQUIRE(r.code == 0);
+    for (const char* frame : {"0000_00.obj", "0003_00.obj"}) CHECK(fs::exists(dir / "out" / frame));
+    CHECK_FALSE(fs::exists(dir / "out" / "0004_00.obj"));
+    CHECK(text_of(dir / "out" / "conf.json") == text_of(scene));
+    const std::string timing = text_of(dir / "out" / "timing");
+    CHECK(std::count(timing.begin(), timing.end(), '\n') == 3);
+    std::istringstream first(timing.substr(0, timing.find('\n')));
+    CHECK(std::distance(std::istream_iterator<double>(first), {}) == 8);
+    CHECK_THAT(text_of(dir / "out" / "0003_00.obj"), Contains("\nny ") && Contains("\nnv "));
+}
+
+TEST_CASE("a resumed run continues to the same digits") {
+    for (const std::string method : {"backward_euler", "bdf2"}) {
+        const fs::path dir = fresh_folder("resume_" + method);
+        // Wind and unequal bending, so that what lags matters; a handle that takes hold after the interruption,
+        // and one before.
+        const fs::path scene = changed_scene(
+            "comp_iso", dir,
+            {{"\"frame_time\": 0.4", "\"frame_time\": 0.05"}, {"\"frame_steps\": 40", "\"frame_steps\": 5"},
+             {"\"end_frame\": 5", "\"end_frame\": 6"}, {"\"wind\": \\{\"density\": 0\\}", "\"wind\": {\"velocity\": [0, 1, 3]}"},
+             {"\"gravity\"", "\"solver\": {\"method\": \"" + method + "\"}, \"gravity\""},
+             {"\"handles\": \\[", "\"handles\": [{\"nodes\": [220], \"start_time\": 0.12}, {\"nodes\": [221], \"start_time\": 0.24}, "}});
+        REQUIRE(run(scene.string() + " " + (dir / "whole").string() + " --quiet", dir).code == 0);
+        fs::copy(dir / "whole", dir / "part", fs::copy_options::recursive);
+        for (const char* f : {"0004_00.obj", "0005_00.obj", "0006_00.obj"}) fs::remove(dir / "part" / f);
+        const Result r = run("resume " + (dir / "part").string() + " 3 " + scene.string() + " --quiet", dir);
+        INFO(method << r.errors);
+        REQUIRE(r.code == 0);
+        CHECK(text_of(dir / "part" / "0006_00.obj") == text_of(dir / "whole" / "0006_00.obj"));
+    }
+}
+
+TEST_CASE("frames of another program, without our resume files, are continued with a warning") {
+    const fs::path dir = fresh_folder("foreign");
+    const fs::path scene = changed_scene("strip_iso", dir, {{"\"frame_time\": 0.4", "\"frame_time\": 0.05"},
+                                                            {"\"frame_steps\": 40", "\"frame_steps\": 5"},
+                                                            {"\"end_frame\": 5", "\"end_frame\": 2"}});
+    REQUIRE(run(scene.string() + " " + (dir / "out").string() + " --quiet", dir).code == 0);
+    fs::remove_all(dir / "out" / "resume");
+    const Result r = run("resume " + (dir / "out").string() + " 1 " + scene.string() + " --quiet", dir);
+    CHECK(r.code == 0);
+    CHECK_THAT(r.errors, Contains("reconstructed"));
+    CHECK(run("resume " + (dir / "out").string() + " 7 " + scene.string() + " --quiet", dir).code == 2);
+}
+
+TEST_CASE("wrong input ends with exit code 2, names the place, and writes nothing") {
+    const fs::path dir = fresh_folder("wrong");
+    const auto expect = [&](const std::string& from, const std::string& to, const std::string& words) {
+        const fs::path scene = changed_scene("strip_iso", dir, {{from, to}});
+        const Result r = run(scene.string() + " " + (dir / "none").string() + " --quiet", dir);
+        INFO(to);
+        CHECK(r.code == 2);
+        CHECK_THAT(r.errors, Contains(words));
+        CHECK_FALSE(fs::exists(dir / "none"));
+    };
+    expect("\"gravity\"", "\"gravty\"", "Did you mean \"gravity\"?");
+    expect("\"nodes\": \\[", "\"vertices\": [", "/handles/0/vertices");
+    expect("\"nodes\": \\[", "\"nodes\": [99999, ", "node 99999 does not exist");
+    expect("\"remeshing\",", "", "Add \"remeshing\" to /disable");
+    expect("\"disable\": \\[\"proximity\",", "\"obstacles\": [{}], \"disable\": [", "contact with obstacles is not modelled");
+    expect("\"motion\": 0", "\"motion\": 4", "motion 4 does not exist");
+    expect("\"frame_time\": 0.4", "\"frame_time\": -1", "/frame_time");
+    expect("meshes/strip.obj", "meshes/none.obj", "meshes/none.obj");
+    expect("\"plasticity\"\\]", "\"popfilter\"], \"morphs\": [{}]", "/morphs");
+}
+
+TEST_CASE("clockwise faces are refused, an indefinite material stops the run with exit code 3") {
+    const fs::path dir = fresh_folder("failures");
+    const Result flip = run(changed_scene("fail_flip", dir, {}).string() + " " + (dir / "flip").string() + " --quiet", dir);
+    CHECK(flip.code == 2);
+    CHECK_THAT(flip.errors, Contains("runs clockwise in material space"));
+    const Result indefinite = run(changed_scene("fail_nonpd", dir, {}).string() + " " + (dir / "nonpd").string() + " --quiet", dir);
+    CHECK(indefinite.code == 3);
+    CHECK_THAT(indefinite.errors, Contains("not positive definite") && Contains("k_uv"));
+}
+
+TEST_CASE("what is not modelled is left out when asked, and harmless keys are named once") {
+    const fs::path dir = fresh_folder("ignored");
+    const fs::path scene = changed_scene("strip_iso", dir, {{"\"end_frame\": 5", "\"end_frame\": 1, \"friction\": 0.3"},
+                                                            {"\"remeshing\",", "\"remshing\","}});
+    const Result refused = run(scene.string() + " " + (dir / "out").string() + " --quiet", dir);
+    CHECK(refused.code == 2);
+    const Result done = run(scene.string() + " " + (dir / "out").string() + " --quiet --ignore-unsupported", dir);
+    CHECK(done.code == 0);
+    CHECK_THAT(done.errors, Contains("/friction") && Contains("did you mean \"remeshing\"") && Contains("not ArcSim's"));
+}

@@ -1,0 +1,60 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+#include "formwork/flatten/flatten.hpp"
+#include "formwork/panels/allowance.hpp"
+
+using namespace formwork;
+
+TEST_CASE("a square with four allowances becomes the rectangle with mitred corners") {
+    const Polygon square{{0, 0}, {100, 0}, {100, 100}, {0, 100}};
+    const Polygon cut = cut_line(square, {10, 10, 30, 5}, Corner::mitre, 4);   // bottom, right, top, left
+    const Box box = bounding_box(cut);
+    CHECK(box.low.x() == Approx(-5).margin(1e-3));
+    CHECK(box.low.y() == Approx(-10).margin(1e-3));
+    CHECK(box.high.x() == Approx(110).margin(1e-3));
+    CHECK(box.high.y() == Approx(130).margin(1e-3));
+    CHECK(signed_area(cut) == Approx(115.0 * 140).epsilon(1e-5));
+    const Polygon bevelled = cut_line(square, {10, 10, 10, 10}, Corner::bevel, 4);
+    CHECK(signed_area(bevelled) == Approx(120.0 * 120 - 4 * 50).epsilon(1e-5));
+}
+
+TEST_CASE("a sharp corner is bevelled beyond the mitre limit") {
+    const Polygon wedge{{0, 0}, {100, -5}, {100, 5}};
+    const Polygon cut = cut_line(wedge, {10, 10, 10}, Corner::mitre, 2);
+    CHECK(bounding_box(cut).low.x() > -10);
+}
+
+TEST_CASE("the cut line keeps its allowance from the sew line on wavy outlines, and never crosses itself") {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (int trial = 0; trial < 200; ++trial) {
+        Polygon sew;
+        const int n = 12 + 4 * (trial % 20), waves = 2 + trial % 7;
+        const double depth = 0.6 * unit(random), phase = unit(random);
+        for (int i = 0; i < n; ++i) {
+            const double a = 2 * M_PI * i / n, r = 100 * (1 + depth * std::sin(waves * a + phase) + 0.02 * unit(random));
+            sew.emplace_back(r * std::cos(a), r * std::sin(a));
+        }
+        std::vector<double> allowance(n);
+        for (int i = 0; i < n; ++i) allowance[i] = i < n / 3 ? 10 : i < n / 2 ? 30 : 15;
+        const Polygon cut = cut_line(sew, allowance, Corner::mitre, 2);
+        INFO("trial " << trial);
+        REQUIRE(cut.size() >= 3);
+        CHECK(signed_area(cut) > signed_area(sew) + 9.9 * perimeter(sew) * 0.3);
+        CHECK(outline_crossings(cut).empty());
+        double nearest = 1e9;
+        for (int i = 0; i < n; ++i)
+            for (double t : {0.1, 0.5, 0.9}) {
+                const Vector2d p = sew[i] + t * (sew[(i + 1) % n] - sew[i]);
+                REQUIRE(contains(cut, p));
+                nearest = std::min(nearest, distance_to_outline(cut, p));
+            }
+        CHECK(nearest > 4.9);   // of 10: a bevel of two allowances that turn by 120° comes no nearer than half
+        // Away from steps and corners the distance is the allowance itself.
+        const Vector2d middle = (sew[n / 6] + sew[n / 6 + 1]) / 2;
+        const Vector2d d = (sew[n / 6 + 1] - sew[n / 6]).normalized();
+        CHECK(ray_to_outline(cut, middle, {d.y(), -d.x()}).value() >= 10 - 1e-3);
+    }
+}
