@@ -33,6 +33,7 @@ FORMWORK["formwork/scene"] = [*ARCSIM, *FORMWORK]
 FORMWORK["formwork/report"] = [*ARCSIM, *FORMWORK]
 FORMWORK["formwork/study"] = [*ARCSIM, *FORMWORK]
 FORMWORK["formwork/stages"] = [*ARCSIM, *FORMWORK]
+FORMWORK["formwork/cli"] = [*ARCSIM, *FORMWORK]                    # arguments and commands
 FORMWORK["formwork"] = [*ARCSIM, *FORMWORK]                        # main and the command line
 ROOMS = {**ARCSIM, **FORMWORK, "arcsim": [*ARCSIM]}
 

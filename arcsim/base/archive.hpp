@@ -108,12 +108,20 @@ public:
         value({key, unit, doc, range, true}, v);
     }
     template <class T>
+    void required(const char* key, T& v, const char* unit, const char* doc) {
+        value({key, unit, doc, any_number, true}, v);
+    }
+    template <class T>
     void required(const char* key, T& v, const char* doc) {
         value({key, "", doc, any_number, true}, v);
     }
     template <class T>
     void optional(const char* key, T& v, const char* unit, const Range& range, const char* doc) {
         value({key, unit, doc, range, false}, v);
+    }
+    template <class T>
+    void optional(const char* key, T& v, const char* unit, const char* doc) {
+        value({key, unit, doc, any_number, false}, v);
     }
     template <class T>
     void optional(const char* key, T& v, const char* doc) {
@@ -171,6 +179,16 @@ public:
         end_when();
     }
 
+    /// A name or a whole number, kept as text; optional.
+    void name_or_index(const char* key, std::optional<std::string>& v, const char* doc) {
+        const Field f{key, "", doc, any_number, false};
+        if (!begin_optional(f, v.has_value())) return v.reset();
+        const bool had_value = v.has_value();
+        if (!had_value) v.emplace();
+        name_or_index_field(f, *v);
+        if (end_optional() && !had_value) v.reset();
+    }
+
     /// A direction in space, made a unit vector: [x, y, z] or "x", "y", "z", "-x", "-y", "-z".
     virtual void direction(const char* key, Vector3d& v, const char* doc) = 0;
     /// A part of the file as it stands, for formats that no visit describes; a JsonNode reads it afterwards.
@@ -226,6 +244,7 @@ protected:
         if (end_optional() && !had_value) v.reset();   // documentation only looked
     }
 
+    virtual void name_or_index_field(const Field&, std::string& v) = 0;
     virtual void choice_field(const Field&, int& index, const std::vector<Choice>& choices) = 0;
     virtual bool begin_optional(const Field&, bool has_value) = 0;
     virtual bool end_optional() = 0;   // true: put the value back to "not given"

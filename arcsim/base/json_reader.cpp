@@ -93,6 +93,13 @@ void ParamsReader::fixed_array(const Field& f, double* v, int n) {
     for (int i = 0; i < n; ++i) v[i] = (*node)[i].number(f.range, f.unit, f.doc);
 }
 
+void ParamsReader::name_or_index_field(const Field& f, std::string& v) {
+    const auto node = get(f);
+    if (node && node->kind() == JsonKind::number) v = std::to_string(node->integer(non_negative, f.doc));
+    else if (node && node->kind() == JsonKind::string) v = node->string();
+    else if (node) node->fail("expected a name or a number, got " + node->shown() + ". " + f.doc);
+}
+
 void ParamsReader::choice_field(const Field& f, int& index, const std::vector<Choice>& choices) {
     const auto node = get(f);
     if (!node) return;

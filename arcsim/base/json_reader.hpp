@@ -79,6 +79,7 @@ private:
     void value(const Field&, std::vector<int>&) override;
     void value(const Field&, std::vector<std::string>&) override;
     void fixed_array(const Field&, double* v, int n) override;
+    void name_or_index_field(const Field& f, std::string& v) override;
     void choice_field(const Field&, int& index, const std::vector<Choice>& choices) override;
     bool begin_optional(const Field&, bool has_value) override;
     bool end_optional() override { return false; }

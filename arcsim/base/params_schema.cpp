@@ -99,6 +99,16 @@ void ParamsSchema::fixed_array(const Field& f, double* v, int n) {
     add(f, std::move(s), array_of(std::vector<double>(v, v + n)));
 }
 
+void ParamsSchema::name_or_index_field(const Field& f, std::string&) {
+    JsonValue s = JsonValue::object(), types = JsonValue::array();
+    types.add("string");
+    types.add("integer");
+    if (given_ != Given::plain) types.add("null");
+    s.set("type", std::move(types));
+    if (*f.doc) s.set("description", f.doc);
+    levels_.back().schema.find("properties")->set(f.key, std::move(s));
+}
+
 void ParamsSchema::choice_field(const Field& f, int& index, const std::vector<Choice>& choices) {
     JsonValue s = JsonValue::object(), names = JsonValue::array();
     std::string text = f.doc;

@@ -37,6 +37,7 @@ private:
     void value(const Field& f, std::vector<int>& v) override;
     void value(const Field& f, std::vector<std::string>& v) override;
     void fixed_array(const Field& f, double* v, int n) override;
+    void name_or_index_field(const Field& f, std::string& v) override;
     void choice_field(const Field& f, int& index, const std::vector<Choice>& choices) override;
     bool begin_optional(const Field& f, bool has_value) override;
     bool end_optional() override;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arcsim/base/text.hpp"
+
 namespace arcsim {
 
 void ParamsWriter::value(const Field& f, double& v) {
@@ -21,6 +23,12 @@ void ParamsWriter::value(const Field& f, InputFile& v) {
 }
 
 void ParamsWriter::fixed_array(const Field& f, double* v, int n) { put_array(f, std::vector<double>(v, v + n)); }
+
+void ParamsWriter::name_or_index_field(const Field& f, std::string& v) {
+    long index = 0;
+    if (parse_integer(v, index)) put(f, static_cast<int>(index));
+    else put(f, v);
+}
 
 void ParamsWriter::choice_field(const Field& f, int& index, const std::vector<Choice>& choices) {
     if (index >= 0) put(f, choices[index].name);

@@ -1,7 +1,6 @@
 #include <charconv>
-#include <fstream>
 
-#include "arcsim/base/error.hpp"
+#include "arcsim/base/files.hpp"
 #include "arcsim/mesh/obj_io.hpp"
 
 namespace arcsim {
@@ -95,13 +94,7 @@ std::string format_obj(const ClothMesh& mesh) {
 }
 
 void write_obj(const std::filesystem::path& file, const ClothMesh& mesh) {
-    std::filesystem::path part = file;
-    part += ".tmp";
-    std::ofstream out(part, std::ios::binary);
-    out << format_obj(mesh);
-    out.close();
-    if (!out) throw InputError(file.string() + ": cannot be written. Check that the folder exists and has room.");
-    std::filesystem::rename(part, file);
+    write_file_atomically(file, format_obj(mesh));
 }
 
 }  // namespace arcsim

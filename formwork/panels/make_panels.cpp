@@ -94,7 +94,7 @@ PanelSet make_panels(const Segmentation& s, const PanelParams& params) {
     for (FlatPanel& panel : set.panels) {
         const Surface surface = panel_surface(s, panel);
         panel.rest_area = arcsim::total_area(surface);
-        panel.u = flatten_disk(surface).u;
+        panel.u = flatten_disk(surface, {200, 1e-4}).u;   // the joint solve goes on from here
         surface_shapes.push_back(rest_shapes(surface));
         shapes.push_back(surface_shapes.back());
         if (params.stretch_compensation) relax_stretch(s, panel, shapes.back());

@@ -15,57 +15,78 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr int max_iterations = 60;
-constexpr double length_tolerance = 1e-7;   // of a stretch: far below what scissors resolve
-constexpr double energy_tolerance = 1e-5;   // of E - 4: the equality costs little, the last digits nothing
+constexpr double length_tolerance = 5e-6;   // of a stretch: far below what scissors resolve
+constexpr double energy_tolerance = 1e-4;   // of E - 4: the equality costs little, the last digits nothing
 constexpr double relative_shift = 1e-9;     // keeps H definite along the rigid motions
 
-/// One stretch of a seam between two notches; edges at its ends count in part.
-struct Stretch {
+/// One equality: weighted lengths of chords of a seam's chain, the same on both sides.
+///
+/// The multiplier of a length is a tension along the seam, and where the chain has kinks a tension pulls
+/// sideways: with the exact lengths alone one side grows spikes to gain length. So the bulk of the work is
+/// left to chords over a window, which do not see kinks, weighted by hat functions, whose tension is
+/// continuous along the seam. The exact lengths between notches then settle what the kinks differ by.
+struct Equality {
+    struct Chord {
+        int from, to;    // along the chain
+        double weight;
+    };
     int seam = 0;
-    double rest_length = 0;
-    std::vector<std::pair<int, double>> edge;   // index along the chain, share of the edge
+    double rest_length = 0;   // weighted, on the surface, m
+    std::vector<Chord> chords;
 };
 
-std::vector<Stretch> stretches(const PanelSet& set, const std::vector<std::vector<double>>& edge_lengths) {
-    std::vector<Stretch> all;
+constexpr double window_per_spacing = 0.25;   // chord over notch spacing
+constexpr double hats_per_spacing = 2;
+
+std::vector<Equality> equalities(const PanelSet& set, const Segmentation& s) {
+    std::vector<Equality> all;
     for (std::size_t i = 0; i < set.seams.size(); ++i) {
-        const PanelSeam& seam = set.seams[i];
-        if (seam.is_rim()) continue;
-        std::vector<double> cuts{0};
-        for (double f : seam.notch_rest) cuts.push_back(f * seam.rest_length);
-        cuts.push_back(seam.rest_length);
-        for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
-            Stretch stretch;
-            stretch.seam = static_cast<int>(i);
-            stretch.rest_length = cuts[c + 1] - cuts[c];
-            double from = 0;
-            for (std::size_t k = 0; k < edge_lengths[i].size(); ++k) {
-                const double to = from + edge_lengths[i][k];
-                const double share = (std::min(to, cuts[c + 1]) - std::max(from, cuts[c])) / (to - from);
-                if (share > 0) stretch.edge.emplace_back(static_cast<int>(k), share);
-                from = to;
+        if (set.seams[i].is_rim()) continue;
+        const std::vector<int>& nodes = s.seams[i].nodes;
+        const int n = static_cast<int>(nodes.size()) - 1;   // edges
+        std::vector<double> at{0};
+        for (int k = 0; k < n; ++k) at.push_back(at.back() + (s.mesh.x[nodes[k + 1]] - s.mesh.x[nodes[k]]).norm());
+        const double length = at.back(), spacing = set.params.notch_spacing_mm / 1000;
+        const double window = std::min(window_per_spacing * spacing, length / 8);
+
+        // A window slides along the seam; where it reaches over an end it is cut off there.
+        std::vector<Equality::Chord> chords;
+        for (int k = 0, to = 0; k <= n; ++k) {
+            const double share = (at[std::min(k + 1, n)] - at[std::max(k - 1, 0)]) / 2;   // of the seam that vertex k stands for
+            while (to < n && (at[to] < at[k] + window || to <= k)) ++to;
+            const bool whole = at[to] >= at[k] + window;
+            if (to > k) chords.push_back({k, to, share / (whole ? at[to] - at[k] : window)});
+            if (k > 0 && at[k] < window) chords.push_back({0, k, share / window});
+        }
+        const int hats = std::max(1, static_cast<int>(std::round(hats_per_spacing * length / spacing)));
+        for (int h = 0; h <= hats; ++h) {
+            Equality equality;
+            equality.seam = static_cast<int>(i);
+            for (const Equality::Chord& c : chords) {
+                const double middle = (at[c.from] + at[c.to]) / 2 / length * hats;
+                const double value = c.weight * std::max(0.0, 1 - std::abs(middle - h));
+                if (value <= 0) continue;
+                equality.chords.push_back({c.from, c.to, value});
+                equality.rest_length += value * (at[c.to] - at[c.from]);
             }
-            all.push_back(std::move(stretch));
+            if (!equality.chords.empty()) all.push_back(std::move(equality));
+        }
+        // What is sewn is the chain itself: its exact length between notches.
+        std::vector<double> cuts{0};
+        for (double f : set.seams[i].notch_rest) cuts.push_back(f * length);
+        cuts.push_back(length);
+        for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
+            Equality equality;
+            equality.seam = static_cast<int>(i);
+            equality.rest_length = cuts[c + 1] - cuts[c];
+            for (int k = 0; k < n; ++k) {
+                const double share = (std::min(at[k + 1], cuts[c + 1]) - std::max(at[k], cuts[c])) / (at[k + 1] - at[k]);
+                if (share > 0) equality.chords.push_back({k, k + 1, share});
+            }
+            all.push_back(std::move(equality));
         }
     }
     return all;
-}
-
-/// Nothing but lengths along the chain on the surface, to share out edges that a notch divides.
-std::vector<std::vector<double>> rest_edge_lengths(const PanelSet& set, const Segmentation& s) {
-    std::vector<std::vector<double>> lengths(set.seams.size());
-    for (std::size_t i = 0; i < set.seams.size(); ++i) {
-        const std::vector<int>& nodes = s.seams[i].nodes;
-        for (std::size_t k = 0; k + 1 < nodes.size(); ++k)
-            lengths[i].push_back((s.mesh.x[nodes[k + 1]] - s.mesh.x[nodes[k]]).norm());
-    }
-    return lengths;
-}
-
-double stretch_length(const Stretch& stretch, const SeamSide& side, const std::vector<Vector2d>& u) {
-    double sum = 0;
-    for (const auto& [k, share] : stretch.edge) sum += share * (u[side.vertex[k + 1]] - u[side.vertex[k]]).norm();
-    return sum;
 }
 
 /// One panel of the joint problem.
@@ -82,8 +103,8 @@ struct Block {
 
 class JointProblem {
 public:
-    JointProblem(PanelSet& set, const std::vector<std::vector<Matrix2d>>& shapes, const std::vector<Stretch>& all)
-        : set_(set), stretches_(all), blocks_(set.panels.size()) {
+    JointProblem(PanelSet& set, const std::vector<std::vector<Matrix2d>>& shapes, const std::vector<Equality>& all)
+        : set_(set), equalities_(all), blocks_(set.panels.size()) {
         double total = 0;
         for (std::size_t p = 0; p < blocks_.size(); ++p) {
             const FlatPanel& panel = set.panels[p];
@@ -148,13 +169,13 @@ private:
 
     /// c_j: side 0 longer than side 1 by so much, m.
     VectorXd differences(double t) const {
-        VectorXd c(stretches_.size());
-        for (std::size_t j = 0; j < stretches_.size(); ++j) {
+        VectorXd c(equalities_.size());
+        for (std::size_t j = 0; j < equalities_.size(); ++j) {
             double sum = 0;
             for (int i : {0, 1}) {
-                const SeamSide& side = set_.seams[stretches_[j].seam].side[i];
-                for (const auto& [k, share] : stretches_[j].edge)
-                    sum += (i == 0 ? share : -share) * (point(side.panel, side.vertex[k + 1], t) - point(side.panel, side.vertex[k], t)).norm();
+                const SeamSide& side = set_.seams[equalities_[j].seam].side[i];
+                for (const auto& [from, to, weight] : equalities_[j].chords)
+                    sum += (i == 0 ? weight : -weight) * (point(side.panel, side.vertex[to], t) - point(side.panel, side.vertex[from], t)).norm();
             }
             c[j] = sum;
         }
@@ -165,13 +186,13 @@ private:
 
     double worst(const VectorXd& c) const {
         double w = 0;
-        for (std::size_t j = 0; j < stretches_.size(); ++j) w = std::max(w, std::abs(c[j]) / stretches_[j].rest_length);
+        for (std::size_t j = 0; j < equalities_.size(); ++j) w = std::max(w, std::abs(c[j]) / equalities_[j].rest_length);
         return w;
     }
 
     /// Fills every block's step; returns the multipliers.
     VectorXd step_and_multipliers(const VectorXd& c) {
-        const int m = static_cast<int>(stretches_.size());
+        const int m = static_cast<int>(equalities_.size());
         Eigen::MatrixXd s = Eigen::MatrixXd::Zero(m, m);
         VectorXd right = c;
         for (std::size_t p = 0; p < blocks_.size(); ++p) {
@@ -206,13 +227,13 @@ private:
         Block& block = blocks_[p];
         block.b = Eigen::MatrixXd::Zero(block.u.size(), block.rows.size());
         for (std::size_t r = 0; r < block.rows.size(); ++r) {
-            const Stretch& stretch = stretches_[block.rows[r]];
+            const Equality& equality = equalities_[block.rows[r]];
             for (int i : {0, 1}) {
-                const SeamSide& side = set_.seams[stretch.seam].side[i];
+                const SeamSide& side = set_.seams[equality.seam].side[i];
                 if (side.panel != p) continue;
-                for (const auto& [k, share] : stretch.edge) {
-                    const int a = side.vertex[k], b = side.vertex[k + 1];
-                    const Vector2d d = (i == 0 ? share : -share) * (point(p, b, 0) - point(p, a, 0)).normalized();
+                for (const auto& [from, to, weight] : equality.chords) {
+                    const int a = side.vertex[from], b = side.vertex[to];
+                    const Vector2d d = (i == 0 ? weight : -weight) * (point(p, b, 0) - point(p, a, 0)).normalized();
                     block.b.col(r).segment<2>(2 * b) += d;
                     block.b.col(r).segment<2>(2 * a) -= d;
                 }
@@ -221,39 +242,16 @@ private:
     }
 
     PanelSet& set_;
-    const std::vector<Stretch>& stretches_;
+    const std::vector<Equality>& equalities_;
     std::vector<Block> blocks_;
 };
 
 }  // namespace
 
 double match_seams(PanelSet& set, const Segmentation& s, const std::vector<std::vector<Matrix2d>>& shapes) {
-    const std::vector<Stretch> all = stretches(set, rest_edge_lengths(set, s));
+    const std::vector<Equality> all = equalities(set, s);
     if (all.empty()) return 0;
     return JointProblem(set, shapes, all).solve();
-}
-
-void measure_seams(PanelSet& set, const Segmentation& s) {
-    for (PanelSeam& seam : set.seams) {
-        seam.mismatch = seam.local_mismatch = 0;
-        seam.notch.clear();
-        for (SeamSide& side : seam.side) {
-            side.length = 0;
-            for (std::size_t k = 0; k + 1 < side.vertex.size(); ++k)
-                side.length += (set.panels[side.panel].u[side.vertex[k + 1]] - set.panels[side.panel].u[side.vertex[k]]).norm();
-        }
-        if (!seam.is_rim())
-            seam.mismatch = std::abs(seam.side[0].length - seam.side[1].length) / std::max(seam.side[0].length, seam.side[1].length);
-    }
-    std::vector<double> reached(set.seams.size(), 0);   // flat length of side 0 up to the end of the stretch
-    for (const Stretch& stretch : stretches(set, rest_edge_lengths(set, s))) {
-        PanelSeam& seam = set.seams[stretch.seam];
-        const double a = stretch_length(stretch, seam.side[0], set.panels[seam.side[0].panel].u);
-        const double b = stretch_length(stretch, seam.side[1], set.panels[seam.side[1].panel].u);
-        seam.local_mismatch = std::max(seam.local_mismatch, std::abs(a - b) / std::max(a, b));
-        reached[stretch.seam] += a;
-        if (seam.notch.size() < seam.notch_rest.size()) seam.notch.push_back(reached[stretch.seam] / seam.side[0].length);
-    }
 }
 
 }  // namespace formwork

@@ -99,11 +99,12 @@ Surface icosphere(int levels) {
     s.faces = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
                {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
                {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+    for (Vector3d& x : s.x) x.normalize();
     for (int level = 0; level < levels; ++level) {
         std::map<std::pair<int, int>, int> middle;
         const auto mid = [&](int a, int b) {
             const auto [it, is_new] = middle.emplace(std::minmax(a, b), s.n_nodes());
-            if (is_new) s.x.push_back((s.x[a] + s.x[b]) / 2);
+            if (is_new) s.x.push_back((s.x[a] + s.x[b]).normalized());
             return it->second;
         };
         std::vector<arcsim::Triangle> finer;
@@ -113,7 +114,6 @@ Surface icosphere(int levels) {
         }
         s.faces = std::move(finer);
     }
-    for (Vector3d& x : s.x) x.normalize();
     return s;
 }
 

@@ -1,0 +1,75 @@
+#include <cstdio>
+
+#include "arcsim/base/error.hpp"
+#include "arcsim/base/files.hpp"
+#include "formwork/cli/session.hpp"
+#include "formwork/scene/formwork_scene.hpp"
+#include "formwork/scene/mesh_doctor.hpp"
+
+namespace formwork {
+
+namespace {
+
+void print(const char* mark, const std::vector<std::string>& lines) {
+    for (const std::string& line : lines) std::printf("%s%s\n", mark, line.c_str());
+}
+
+/// What the scene will have modelled, in words.
+std::vector<std::string> modelled(const FormworkScene& scene) {
+    const FormworkParams& p = scene.formwork;
+    std::vector<std::string> lines;
+    const auto fabric = [](const MaterialParams& m) {
+        return std::string(m.model == FabricModel::isotropic ? "isotropic fabric" : "woven fabric of " + m.data.name) +
+               (m.compression == Compression::tension_field ? ", wrinkles carry tension only" : ", compression resisted");
+    };
+    if (p.plaster) lines.push_back("inflate: membrane equilibrium, " + fabric(p.inflate.material) + (p.inflate.self_weight ? ", own weight" : ""));
+    lines.push_back("not modelled: bending, friction, contact of the bag with itself or a frame, setting of the plaster");
+    if (p.sew) lines.push_back("sew: " + fabric(p.sew->material) + ", seams as threads");
+    else lines.push_back("sew: left out, the scene has no \"sew\" object");
+    return lines;
+}
+
+void check(const SceneArguments& arguments, const std::string& places_file, Session& session) {
+    const FormworkScene scene = read_scene(arguments.scene, {arguments.overrides, arguments.threads, arguments.ignore_unsupported});
+    const FormworkParams& p = scene.formwork;
+    const std::string mesh_name = scene.mesh_file().path.string();
+    const MeshDiagnosis mesh = examine_mesh(read_mesh_file(scene.mesh_file().path), {p.units, p.rest, p.weld, p.any_size}, p.up);
+    if (!session.quiet) {
+        std::printf("%s\n", effective_scene_text(scene, std::filesystem::path(arguments.scene).parent_path()).c_str());
+        std::printf("%s\n", mesh_name.c_str());
+        print("  ", mesh.facts);
+        print("  ", modelled(scene));
+    }
+    print("warning: ", scene.warnings);
+    print(("warning: " + mesh_name + ": ").c_str(), mesh.warnings);
+    print(("error: " + mesh_name + ": ").c_str(), mesh.faults);
+    if (!places_file.empty() && !mesh.places_obj.empty()) {
+        arcsim::write_file_atomically(places_file, mesh.places_obj);
+        std::printf("faulty places: %s\n", places_file.c_str());
+    }
+    // What only the stages' own loading finds: sizes, areas, rest coordinates, selectors that hold nothing.
+    const BagMesh bag = load_bag_mesh(scene);
+    print(("note: " + mesh_name + ": ").c_str(), bag.notes);
+    if (scene.has_formwork && !p.segment.field) {
+        const std::vector<char> held = held_dofs(scene, bag);
+        scene.plaster();
+        const auto n = std::count(held.begin(), held.end(), 1);
+        if (!session.quiet) std::printf("  %zu degrees of freedom, %ld held\n", held.size(), static_cast<long>(n));
+    }
+    if (!session.quiet) std::printf("%s: ok\n", arguments.scene.c_str());
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, Session& session) {
+    CLI::App* command = add_command(app, session, "check", "Print the effective scene and examine its mesh; compute nothing",
+                                    "  formwork check conf/column.json                      every key with its value; mesh facts in mm\n"
+                                    "  formwork check mine.json --places faults.obj         flipped and non-manifold places as an OBJ");
+    auto arguments = std::make_shared<SceneArguments>();
+    auto places = std::make_shared<std::string>();
+    add_scene_arguments(command, *arguments, false);
+    command->add_option("--places", *places, "OBJ file for the faulty places of the mesh, if there are any")->type_name("FILE");
+    command->callback([arguments, places, &session] { check(*arguments, *places, session); });
+}
+
+}  // namespace formwork

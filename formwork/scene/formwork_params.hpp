@@ -1,0 +1,102 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formwork/equilibrium/solver_params.hpp"
+#include "formwork/fabric/material_params.hpp"
+#include "formwork/load/plaster_params.hpp"
+#include "formwork/scene/bag_mesh.hpp"
+#include "formwork/scene/fixed_selector.hpp"
+#include "formwork/panels/panel_params.hpp"
+#include "formwork/scene/segment_keys.hpp"
+
+namespace formwork {
+
+/// Keys of `formwork.inflate`.
+struct InflateParams {
+    MaterialParams material;
+    double density = 0.2;               // fabric, kg/m²
+    bool self_weight = true;
+    PressureQuadrature pressure = PressureQuadrature::consistent;
+    PressureJacobian pressure_jacobian = PressureJacobian::consistent;
+    SolverParams solver;
+};
+template <class Archive>
+void visit(Archive& a, InflateParams& p) {
+    a.nested("material", p.material, "The fabric before it has panels and a weave.");
+    a.optional("density", p.density, "kg/m²", arcsim::non_negative, "Of the fabric.");
+    a.optional("self_weight", p.self_weight, "The fabric's own weight acts.");
+    a.choice("pressure", p.pressure, pressure_quadrature_names, "How the liquid's pressure becomes forces.");
+    a.choice("pressure_jacobian", p.pressure_jacobian, pressure_jacobian_names, "Derivative of the pressure in the tangent.");
+    a.nested("solver", p.solver, "How the equilibrium is found.");
+}
+
+/// Keys of `formwork.sew`.
+struct SewParams {
+    MaterialParams material = [] {
+        MaterialParams m;
+        m.model = FabricModel::tensor;
+        return m;
+    }();
+    double density = 0.2;               // fabric, kg/m²
+    double seam_stiffness = 5e5;        // kappa of (10), N/m per edge
+    std::optional<double> seam_EA;      // N; replaces kappa by EA / L
+    std::vector<std::string> compare;   // "rotated_45", "random"
+    SolverParams solver;
+};
+template <class Archive>
+void visit(Archive& a, SewParams& p) {
+    a.nested("material", p.material, "The woven fabric that the panels are cut from.");
+    a.optional("density", p.density, "kg/m²", arcsim::non_negative, "Of the fabric.");
+    a.optional("seam_stiffness", p.seam_stiffness, "N/m", arcsim::non_negative, "kappa of (10), per seam edge.");
+    a.optional("seam_EA", p.seam_EA, "N", arcsim::positive,
+               "Stiffness of a seam as a thread; kappa = EA / L, independent of the mesh. Replaces seam_stiffness.");
+    a.optional("compare", p.compare, "Runs with other grain, for comparison: \"rotated_45\", \"random\".");
+    for (const std::string& name : p.compare)
+        a.check(name == "rotated_45" || name == "random", "compare", "\"" + name + "\" is not known: \"rotated_45\" or \"random\".");
+    a.nested("solver", p.solver, "How the equilibrium is found.");
+}
+
+/// Keys of `formwork.report`.
+struct ReportParams {
+    std::string title;                  // empty: the scene's file name
+};
+template <class Archive>
+void visit(Archive& a, ReportParams& p) {
+    a.optional("title", p.title, "Heading of the report; empty: the scene's name.");
+}
+
+/// The `formwork` object of a scene: composed of what the rooms define. SI except where a name says otherwise.
+struct FormworkParams {
+    LengthUnit units = LengthUnit::m;
+    bool any_size = false;
+    bool weld = true;
+    RestFrom rest = RestFrom::automatic;
+    Vector3d up{0, 0, 1};
+    std::vector<FixedSelector> fixed;
+    std::optional<PlasterParams> plaster;
+    InflateParams inflate;
+    SegmentKeys segment;
+    PanelParams panels;
+    std::optional<SewParams> sew;
+    ReportParams report;
+};
+template <class Archive>
+void visit(Archive& a, FormworkParams& p) {
+    a.choice("units", p.units, length_unit_names, "Length unit of the mesh; everything else in this file is SI.");
+    a.optional("any_size", p.any_size, "Do not complain about a mesh smaller than 2 mm or larger than 60 m.");
+    a.optional("weld", p.weld, "Join vertices at the same place along open edges.");
+    a.choice("rest", p.rest, rest_from_names, "Where the unstretched shape comes from.");
+    a.direction("up", p.up, "Against gravity: [x, y, z], or \"x\", \"y\", \"z\".");
+    a.list("fixed", p.fixed, "Nodes that are held where they are.");
+    a.nested("plaster", p.plaster, "The liquid.");
+    a.nested("inflate", p.inflate, "First stage: the filled shape of an isotropic bag.");
+    a.nested("segment", p.segment, "Second stage: seams and panels.");
+    a.nested("panels", p.panels, "Third stage: flat cutting patterns.");
+    a.nested("sew", p.sew, "Fourth stage: the sewn bag of woven fabric, filled again.");
+    a.nested("report", p.report, "The report.");
+}
+
+}  // namespace formwork

@@ -1,0 +1,118 @@
+#include <chrono>
+#include <cmath>
+#include <map>
+
+#include "arcsim/base/text.hpp"
+#include "arcsim/mesh/obj_io.hpp"
+#include "formwork/segment/segment.hpp"
+#include "formwork/stages/segmentation_file.hpp"
+#include "formwork/stages/stage.hpp"
+#include "formwork/stages/strain_file.hpp"
+
+namespace formwork {
+
+using arcsim::JsonValue;
+
+namespace {
+
+/// The surface that is cut, and what the weave is to follow on it.
+struct SegmentInput {
+    Surface surface;
+    std::vector<DirectionData> data;
+};
+
+SegmentInput read_input(const StageContext& context) {
+    const SegmentKeys& keys = context.scene.formwork.segment;
+    SegmentInput in;
+    if (keys.field) {
+        in.surface = load_bag_mesh(context.scene).surface;
+        const Topology t = arcsim::build_topology(in.surface);
+        in.data = read_field_file(keys.field->path.string(), t, keys.directions);
+        return in;
+    }
+    const bool inflated = context.scene.formwork.panels.from == PanelSource::inflated;
+    const std::filesystem::path folder = context.dir / "inflate";
+    in.surface = arcsim::read_obj(folder / (inflated ? "inflated.obj" : "rest.obj")).surface();
+    StrainField strain = read_strain(folder, in.surface.n_faces());
+    if (inflated)
+        for (FaceStrain& f : strain) f.dir = f.dir_deformed;   // left singular vectors, on the surface that is cut
+    in.data = directions_from_strain(in.surface, arcsim::build_topology(in.surface), strain, keys.directions);
+    return in;
+}
+
+/// "+1/4": how SYSTEM.md writes an index.
+std::string index_name(int index4) {
+    const std::string sign = index4 > 0 ? "+" : "-";
+    const int n = std::abs(index4);
+    return n % 4 == 0 ? sign + std::to_string(n / 4) : n % 2 == 0 ? sign + std::to_string(n / 2) + "/2" : sign + std::to_string(n) + "/4";
+}
+
+double seam_length(const Segmentation& s) {
+    double length = 0;
+    for (const Seam& seam : s.seams)
+        for (std::size_t i = 0; !seam.is_rim() && i + 1 < seam.nodes.size(); ++i)
+            length += (s.mesh.x[seam.nodes[i + 1]] - s.mesh.x[seam.nodes[i]]).norm();
+    return length;
+}
+
+bool all_disks(const Segmentation& s) {
+    for (int p = 0; p < s.n_panels; ++p) {
+        Surface piece{s.mesh.x, {}};
+        for (int f = 0; f < s.mesh.n_faces(); ++f)
+            if (s.panel[f] == p) piece.faces.push_back(s.mesh.faces[f]);
+        // A dart makes the piece an annulus of its own nodes only after cutting; what counts is that it hangs together.
+        if (piece.faces.empty() || !arcsim::find_defects(piece).nonmanifold_edges.empty()) return false;
+        const Topology t = arcsim::build_topology(piece);
+        if (t.n_components != 1 || t.euler_characteristic() != 1) return false;
+    }
+    return true;
+}
+
+JsonValue summary_of(const SegmentInput& in, const Segmentation& s, const SegmentParams& params, double wall) {
+    // Figures of the field are those on the mesh that was given, before seams split its faces.
+    const Topology t = arcsim::build_topology(in.surface);
+    const CrossField field = smooth_cross_field(in.surface, t, in.data, params.field);
+    const std::vector<Singularity> found = find_singularities(in.surface, t, field);
+    std::map<std::string, int> counts;
+    int sum4 = 0;
+    for (const Singularity& q : found) {
+        ++counts[index_name(q.index4)];
+        sum4 += q.index4;
+    }
+    JsonValue v = JsonValue::object(), singularities = JsonValue::object();
+    for (const auto& [name, n] : counts) singularities.set(name, n);
+    v.set("panels", s.n_panels);
+    v.set("singularities", std::move(singularities));
+    v.set("index_sum", 0.25 * sum4);
+    v.set("boundary_turning", 0.25 * boundary_turning4(in.surface, t, field));
+    v.set("euler_characteristic", t.euler_characteristic());
+    v.set("smoothness_energy", field.smoothness_energy);
+    v.set("alignment_energy", field.alignment_energy);
+    v.set("field_deviation_deg", field.deviation_deg);
+    v.set("seam_length_m", seam_length(s));
+    v.set("all_disks", all_disks(s));
+    JsonValue violations = JsonValue::array();
+    for (const std::string& text : s.violations) violations.add(text);
+    v.set("violations", std::move(violations));
+    v.set("wall_s", wall);
+    return v;
+}
+
+}  // namespace
+
+JsonValue run_segment(const StageContext& context) {
+    const SegmentInput in = read_input(context);
+    context.progress.update({});
+    const auto start = std::chrono::steady_clock::now();
+    const SegmentParams& params = context.scene.formwork.segment.layout;
+    const Segmentation s = segment(in.surface, in.data, params);
+    const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    write_segmentation(context.dir / "segment", s);
+    const JsonValue summary = summary_of(in, s, params, wall);
+    context.progress.end("segment: " + std::to_string(s.n_panels) + " panels, " + std::to_string(s.singularities.size()) + " singularities, " +
+                         arcsim::format_short(summary.find("seam_length_m")->number) + " m of seams, " + arcsim::format_duration(wall));
+    for (const std::string& text : s.violations) context.progress.warning("segment: " + text);
+    return summary;
+}
+
+}  // namespace formwork
