@@ -41,6 +41,7 @@ void add_schema_command(CLI::App& app, Session& session);
 void add_init_command(CLI::App& app, Session& session);
 void add_mesh_command(CLI::App& app, Session& session);
 void add_compare_command(CLI::App& app, Session& session);
+void add_sweep_command(CLI::App& app, Session& session);
 
 /// "formwork 0.1.0" and what it was built with and runs on.
 std::string version_text();

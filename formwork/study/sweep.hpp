@@ -18,6 +18,7 @@ public:
 
     const std::vector<SweepPoint>& points() const { return points_; }
     const SweepParams& params() const { return params_; }
+    const std::filesystem::path& out() const { return out_; }
 
     /// Runs what is not finished, `processes` at a time (0: as the file says). Returns the number of failed points.
     /// @throws Interrupted after Ctrl-C; finished points stay finished
