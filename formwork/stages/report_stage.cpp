@@ -62,7 +62,7 @@ JsonValue run_report(const StageContext& context) {
     const auto picture = [&](const std::string& name, const Image& image, const std::string& title, const std::string& caption) {
         const std::string png = encode_png(image);
         arcsim::write_file_atomically(context.dir / "pictures" / (name + ".png"), png);
-        in.pictures.push_back({title, caption, png});
+        in.pictures.push_back({name, title, caption, png});
     };
     if (!in.inflated.empty()) {
         const Surface filled{in.inflated, in.rest.faces};
