@@ -18,7 +18,7 @@ std::vector<double> angle_matrix(const FieldProblem& p) {
         if (p.fixed[f]) diagonal(f) = 1;
         else diagonal(f) += p.weight[f];
     }
-    if (!p.has_data) diagonal(0) += 1;   // any constant may be added: face 0 keeps its angle
+    for (int f : p.anchors) diagonal(f) += 1;
     return values;
 }
 
@@ -46,7 +46,7 @@ void AngleSystem::relax(FieldState& s) const {
     for (int f = 0; f < p.n_faces; ++f) branch[f] = nearest_branch(f);
     for (int round = 0; round < max_branch_rounds; ++round) {
         for (int f = 0; f < p.n_faces; ++f) rhs[f] = p.fixed[f] ? p.target[f] : constant[f] + p.weight[f] * branch[f];
-        if (!p.has_data) rhs[0] += s.theta[0];
+        for (int f : p.anchors) rhs[f] += s.theta[f];
         factor_.solve(rhs);
         s.theta.swap(rhs);
         bool changed = false;

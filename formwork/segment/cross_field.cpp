@@ -1,11 +1,8 @@
 #include "formwork/segment/cross_field.hpp"
 
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include "formwork/segment/field_problem.hpp"
-#include "formwork/segment/period_search.hpp"
 
 namespace formwork {
 namespace {
@@ -51,48 +48,25 @@ CrossField match_cross_field(const Surface& s, const Topology& t, const std::vec
 CrossField smooth_cross_field(const Surface& s, const Topology& t, const std::vector<DirectionData>& data,
                               const FieldParams& params, const FieldObserver& observer) {
     const FieldProblem problem = make_field_problem(s, t, data, params);
-    const SparseCholesky ordering(problem.pattern);
-    const AngleSystem angles(problem, ordering);
-    PeriodSearch search(s, t, angles, params.singularity_price);
-    const auto report = [&](const std::string& step, const FieldState& state) {
-        if (observer) observer(step, state.energy, search.cost(state));
-    };
-
-    FieldState best;
-    double best_cost = 0;
-    double start_energy = std::numeric_limits<double>::infinity();
-    const auto try_start = [&](const std::string& name, FieldState state) {
-        angles.alternate(state);
-        report(name, state);
-        if (params.effort > 0) search.descend(state);
-        report(name + ", descended", state);
-        const double cost = search.cost(state);
-        if (!best.theta.empty() && cost >= best_cost) return;
-        best_cost = cost;
-        best = std::move(state);
-    };
-    const PowerField power(problem, ordering);
-    const std::vector<Complex> linear = power.linear();
-    for (const double tau : {10.0, 250.0}) {
-        FieldState state = match_periods(problem, angles_of(power.diffuse(linear, tau, 60)));
-        angles.alternate(state);
-        start_energy = std::min(start_energy, state.energy);
-        try_start(tau < 100 ? "diffused over 10" : "diffused over 250", std::move(state));
+    FieldState state = minimise_field(s, t, problem, params, observer);
+    if (params.isotropic_below > 0) {
+        // Faces that prefer a direction keep the one found; the others follow them and nothing else.
+        std::vector<DirectionData> found = data;
+        bool has_anisotropic = false;
+        for (std::size_t f = 0; f < found.size(); ++f) {
+            const bool anisotropic = data[f].weight >= params.isotropic_below;
+            found[f].theta = state.theta[f];
+            found[f].weight = anisotropic ? 1 : 0;
+            has_anisotropic |= anisotropic;
+        }
+        if (has_anisotropic) {
+            const FieldObserver second = [&](const std::string& step, double energy, double cost) {
+                if (observer) observer("second pass, " + step, energy, cost);
+            };
+            state = minimise_field(s, t, make_field_problem(s, t, found, params), params, second);
+        }
     }
-    // Small diffusions of the best field so far shake loose what single moves cannot: regions whose field
-    // would have to turn as a whole.
-    for (int shake = 0; shake < params.effort; ++shake) {
-        constexpr std::array<double, 3> taus{3, 10, 30};
-        std::vector<Complex> z(best.theta.size());
-        for (std::size_t f = 0; f < z.size(); ++f) z[f] = std::polar(1.0, 4 * best.theta[f]);
-        try_start("shaken", match_periods(problem, angles_of(power.diffuse(z, taus[shake % 3], 5))));
-    }
-    if (best.energy > start_energy) {   // never more energy than plain diffusion has, whatever the price saved
-        PeriodSearch free_of_charge(s, t, angles, 0);
-        free_of_charge.descend(best);
-        report("descended without price", best);
-    }
-    return finish(problem, t, data, best);
+    return finish(problem, t, data, state);
 }
 
 }  // namespace formwork

@@ -42,7 +42,7 @@ struct FieldParams {
     double smoothing_length = 0;   // m; > 0 replaces alpha: alpha_f = A_f / (sqrt(3) l²), independent of the resolution
     double singularity_price = 0.1;   // rad² per quarter of singular index: pairs that the data hardly need are cancelled
     int effort = 1;                // 0: diffuse, round and solve only; n: search over the periods, shake n times
-    bool fill_isotropic = false;   // second pass: faces that hardly prefer a direction follow their neighbours only
+    double isotropic_below = 0;    // > 0: second pass, in which faces of less weight follow the others only
     std::vector<HardDirection> hard;
 };
 
@@ -54,6 +54,8 @@ void visit(Archive& a, FieldParams& p) {
                "Length over which noise is smoothed, whatever the resolution; 0: alpha counts.");
     a.optional("singularity_price", p.singularity_price, "rad²", arcsim::non_negative,
                "What a quarter of singular index costs beside (12): pairs that the data hardly need are cancelled.");
+    a.optional("isotropic_below", p.isotropic_below, "", arcsim::between(0, 1),
+               "Weight below which a face's own direction is dropped and filled in from around in a second pass; 0: one pass.");
     a.optional("search_effort", p.effort, "", arcsim::between(0, 100),
                "0: diffuse, round and solve only; n: search over the periods and shake n times.");
 }

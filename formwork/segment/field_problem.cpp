@@ -37,6 +37,27 @@ void build_pattern(const Topology& t, FieldProblem& problem) {
     m.column.push_back(static_cast<int>(m.row.size()));
 }
 
+/// One face of each component that has neither data nor a fixed face: there any constant may be added.
+std::vector<int> find_anchors(const Topology& t, const FieldProblem& p) {
+    std::vector<int> anchors, stack;
+    std::vector<char> seen(p.n_faces, 0);
+    for (int seed = 0; seed < p.n_faces; ++seed) {
+        if (seen[seed]) continue;
+        bool held = false;
+        stack.push_back(seed);
+        seen[seed] = 1;
+        while (!stack.empty()) {
+            const int f = stack.back();
+            stack.pop_back();
+            held |= p.fixed[f] || p.weight[f] > 0;
+            for (int k = 0; k < 3; ++k)
+                if (const int g = t.neighbour(f, k); g >= 0 && !seen[g]) seen[g] = 1, stack.push_back(g);
+        }
+        if (!held) anchors.push_back(seed);
+    }
+    return anchors;
+}
+
 }  // namespace
 
 FieldProblem make_field_problem(const Surface& s, const Topology& t, const std::vector<DirectionData>& data,
@@ -73,6 +94,7 @@ FieldProblem make_field_problem(const Surface& s, const Topology& t, const std::
         p.target[h.face] = h.theta;
         p.has_data = true;
     }
+    p.anchors = find_anchors(t, p);
     build_pattern(t, p);
     return p;
 }

@@ -28,6 +28,7 @@ struct FieldProblem {
     std::vector<char> fixed;      // hard direction: theta is `target`
     LowerPattern pattern;
     std::vector<int> edge_entry;  // place of each dual edge's off-diagonal in pattern.row
+    std::vector<int> anchors;     // one face of each component without any data: it keeps its angle
     bool has_data = false;        // some weight is positive, or some face is fixed
 };
 
@@ -54,7 +55,7 @@ inline double residual(const DualEdge& e, const std::vector<double>& theta, int 
 }
 
 /// The matrix of (12) in the angles: graph Laplacian plus weights; it does not depend on the periods, so it
-/// is factored once. Fixed faces have rows of the identity; without data face 0 is held in place.
+/// is factored once. Fixed faces have rows of the identity; components without data are held at their anchors.
 class AngleSystem {
 public:
     AngleSystem(const FieldProblem& problem, const SparseCholesky& ordering);
@@ -94,5 +95,9 @@ private:
 };
 
 std::vector<double> angles_of(const std::vector<Complex>& z);
+
+/// The best state found from diffused starts by PeriodSearch, as FieldParams ask.
+FieldState minimise_field(const Surface& s, const Topology& t, const FieldProblem& problem, const FieldParams& params,
+                          const FieldObserver& observer);
 
 }  // namespace formwork

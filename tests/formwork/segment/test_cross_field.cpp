@@ -1,3 +1,5 @@
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -174,4 +176,64 @@ TEST_CASE("bad directions are named") {
     FieldParams params;
     params.hard = {{8, 0.0}};
     CHECK_THROWS_AS(smooth_cross_field(s, t, std::vector<DirectionData>(8), params), arcsim::InputError);
+}
+
+TEST_CASE("the second pass fills isotropic regions from anisotropic ones") {
+    const Surface s = samples::grid(12, 6, 0.1);
+    const Topology t = arcsim::build_topology(s);
+    auto data = projected(s, [](const arcsim::Vector3d&) { return arcsim::Vector3d::UnitX(); }, 1);
+    for (int f = 0; f < s.n_faces(); ++f)   // the right half hardly prefers another direction
+        if (arcsim::face_centroid(s, f)[0] > 0.6) {
+            data[f].theta += 0.6;
+            data[f].weight = 0.05;
+        }
+    FieldParams params;
+    params.alpha = 10;
+    const auto turned = [&](const CrossField& field) {
+        double most = 0;
+        for (int f = 0; f < s.n_faces(); ++f)
+            most = std::max(most, std::abs(wrap_quarter(field.theta[f] - arcsim::face_frame(s, f).angle({1, 0, 0}))));
+        return most;
+    };
+    CHECK(turned(smooth_cross_field(s, t, data, params)) > 0.3);
+    params.isotropic_below = 0.1;
+    CHECK(turned(smooth_cross_field(s, t, data, params)) < 0.1);
+}
+
+TEST_CASE("each component without data has a field of its own") {
+    Surface s = samples::icosphere(1);
+    const Surface other = samples::grid(3, 3, 0.2);
+    for (auto f : other.faces) {
+        for (int& v : f) v += s.n_nodes();
+        s.faces.push_back(f);
+    }
+    s.x.insert(s.x.end(), other.x.begin(), other.x.end());
+    const Topology t = arcsim::build_topology(s);
+    std::vector<DirectionData> data(s.n_faces());
+    const CrossField nothing = smooth_cross_field(s, t, data, {});
+    CHECK(index_sum4(find_singularities(s, t, nothing)) == 8);
+    for (int f = s.n_faces() - 10; f < s.n_faces(); ++f) data[f].weight = 1;
+    CHECK(index_sum4(find_singularities(s, t, smooth_cross_field(s, t, data, {}))) == 8);
+}
+
+TEST_CASE("the field turns with the body and keeps its energy when the faces are renumbered") {
+    Surface s = samples::slab_with_holes(1, 4);
+    const Topology t = arcsim::build_topology(s);
+    const auto direction = [](const arcsim::Vector3d& x) { return arcsim::Vector3d(1, std::sin(x[0]), 0.3); };
+    const auto data = projected(s, direction, 1);
+    const CrossField field = smooth_cross_field(s, t, data, {});
+    Surface moved = s;
+    const Eigen::AngleAxisd turn(0.8, arcsim::Vector3d(3, 1, 2).normalized());
+    for (auto& x : moved.x) x = 2.5 * (turn * x);
+    const CrossField turned = smooth_cross_field(moved, t, data, {});
+    CHECK(turned.energy == Approx(field.energy).epsilon(1e-9));
+    Surface mixed = s;
+    std::vector<DirectionData> mixed_data = data;
+    std::mt19937 random(1);
+    std::vector<int> order(s.n_faces());
+    for (int f = 0; f < s.n_faces(); ++f) order[f] = f;
+    std::shuffle(order.begin(), order.end(), random);
+    for (int f = 0; f < s.n_faces(); ++f) mixed.faces[f] = s.faces[order[f]], mixed_data[f] = data[order[f]];
+    const CrossField renumbered = smooth_cross_field(mixed, arcsim::build_topology(mixed), mixed_data, {});
+    CHECK(renumbered.energy == Approx(field.energy).epsilon(0.02));
 }

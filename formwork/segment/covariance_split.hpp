@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "formwork/segment/cut_mesh.hpp"
+#include "formwork/segment/spectral_split.hpp"
+
+namespace formwork {
+
+/// Developability as the source tests it (§8): a panel whose energy (15) is above the threshold is split
+/// (split_faces), worst first, until none is, or `max_panels` are reached. The borders follow edges of the
+/// mesh. A split that would leave a part with a hole is not made.
+/// @param cut     its seams are extended
+/// @param panel   per face, 0 .. n_panels - 1; renewed
+/// @return number of splits made
+int split_by_covariance(CutMesh& cut, std::vector<int>& panel, int& n_panels, double max_energy, int max_panels,
+                        const SplitParams& params);
+
+}  // namespace formwork
