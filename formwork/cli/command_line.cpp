@@ -1,7 +1,5 @@
 #include "formwork/cli/command_line.hpp"
 
-#include <cstdio>
-
 #include "formwork/cli/session.hpp"
 
 namespace formwork {
@@ -32,9 +30,10 @@ int run_command_line(int argc, char** argv) {
     add_stage_commands(app, session);
     add_check_command(app, session);
     add_schema_command(app, session);
-    //add_init_command(app, session);
+    add_init_command(app, session);
     add_mesh_command(app, session);
-    //add_compare_command(app, session);
+    add_show_command(app, session);
+    add_compare_command(app, session);
     add_sweep_command(app, session);
     try {
         app.parse(argc, argv);   // the chosen command's callback does the work

@@ -40,6 +40,7 @@ void add_check_command(CLI::App& app, Session& session);
 void add_schema_command(CLI::App& app, Session& session);
 void add_init_command(CLI::App& app, Session& session);
 void add_mesh_command(CLI::App& app, Session& session);
+void add_show_command(CLI::App& app, Session& session);
 void add_compare_command(CLI::App& app, Session& session);
 void add_sweep_command(CLI::App& app, Session& session);
 

@@ -1,12 +1,10 @@
 #include <chrono>
 
-#include "arcsim/base/files.hpp"
 #include "arcsim/base/text.hpp"
-#include "arcsim/mesh/obj_io.hpp"
-#include "formwork/panels/panel_set.hpp"
-#include "formwork/stages/csv.hpp"
+#include "formwork/panels/pattern_files.hpp"
 #include "formwork/stages/segmentation_file.hpp"
 #include "formwork/stages/stage.hpp"
+#include "formwork/stages/summary.hpp"
 
 namespace formwork {
 
@@ -14,24 +12,7 @@ using arcsim::JsonValue;
 
 namespace {
 
-/// The whole bag in ArcSim's dialect: nodes of the cut mesh, verts panel after panel, faces in the order of the cut mesh,
-/// so that per-face results of the sewn bag fit the segmentation.
-arcsim::ClothMesh sewn_rest(const Segmentation& s, const PanelSet& set) {
-    arcsim::ClothMesh m;
-    for (const auto& x : s.mesh.x) m.add_node(x);
-    std::vector<Triangle> verts(s.mesh.faces.size());
-    for (const FlatPanel& panel : set.panels) {
-        const int first = m.n_verts();
-        for (const auto& u : panel.u) m.add_vert(u);
-        for (std::size_t k = 0; k < panel.face.size(); ++k)
-            for (int c = 0; c < 3; ++c) verts[panel.face[k]][c] = first + panel.faces[k][c];
-        m.groups.push_back(panel_name(panel.id));
-    }
-    for (int f = 0; f < s.mesh.n_faces(); ++f) m.add_face(s.mesh.faces[f], verts[f], s.panel[f]);
-    return m;
-}
-
-JsonValue summary_of(const PanelSet& set, const std::vector<std::string>& files, double wall) {
+JsonValue summary_of(const PanelSet& set, const PatternFiles& files, double wall) {
     JsonValue v = JsonValue::object(), names = JsonValue::array();
     v.set("count", set.metrics.count);
     v.set("cloth_area_m2", set.metrics.cloth_area_m2);
@@ -41,8 +22,10 @@ JsonValue summary_of(const PanelSet& set, const std::vector<std::string>& files,
     v.set("flips", set.metrics.flips);
     v.set("overlaps", set.metrics.overlaps);
     v.set("max_seam_length_mismatch", set.metrics.max_seam_length_mismatch);
-    for (const std::string& file : files) names.add(file);
+    for (const std::string& file : files.names) names.add(file);
     v.set("files", std::move(names));
+    v.set("roll_length_m", files.roll_length_m);
+    v.set("roll_utilisation", files.utilisation);
     v.set("wall_s", wall);
     return v;
 }
@@ -53,10 +36,18 @@ JsonValue run_panels(const StageContext& context) {
     const auto start = std::chrono::steady_clock::now();
     const Segmentation s = read_segmentation(context.dir / "segment");
     context.progress.update({});
-    const PanelSet set = make_panels(s, context.scene.formwork.panels);
-    const std::filesystem::path folder = context.dir / "panels";
-    std::vector<std::string> files{"sewn_rest.obj"};
-    arcsim::write_obj(folder / "sewn_rest.obj", sewn_rest(s, set));
+    const FormworkScene& scene = context.scene;
+    const PanelSet set = make_panels(s, scene.formwork.panels);
+    PatternInfo info;
+    info.name = scene.name();
+    info.up = scene.formwork.up;
+    const JsonValue summary = read_summary(context.dir);
+    if (const JsonValue* inflate = summary.find("inflate")) {   // for the bill of materials
+        info.liquid_m3 = inflate->find("volume_m3")->number;
+        info.liquid_kg = inflate->find("liquid_mass_kg")->number;
+    }
+    if (scene.formwork.sew) info.fabric_density = scene.formwork.sew->density;
+    const PatternFiles files = write_patterns(set, s, make_pattern(set, s, info), context.dir / "panels");
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     context.progress.end("panels: " + std::to_string(set.metrics.count) + " pieces, " + arcsim::format_short(set.metrics.cloth_area_m2) +
                          " m² of cloth, stretch distortion up to " + arcsim::format_short(100 * set.metrics.max_stretch_distortion, 2) +

@@ -3,8 +3,8 @@
 #include "arcsim/base/files.hpp"
 #include "arcsim/base/text.hpp"
 #include "arcsim/mesh/obj_io.hpp"
-#include "formwork/report/pictures.hpp"
-#include "formwork/report/report.hpp"
+#include "formwork/panels/sewing_order.hpp"
+#include "formwork/report/report_pictures.hpp"
 #include "formwork/stages/segmentation_file.hpp"
 #include "formwork/stages/stage.hpp"
 #include "formwork/stages/strain_file.hpp"
@@ -44,7 +44,11 @@ ReportInput gather(const StageContext& context, const JsonValue& summary) {
         in.convergence.push_back({"inflate", residual_history(*summary.find("inflate"))});
     }
     if (has(summary, "segment")) in.segmentation = read_segmentation(context.dir / "segment");
-    if (has(summary, "panels")) in.panels = read_panels(context.dir / "panels/sewn_rest.obj", *in.segmentation).panels;
+    if (has(summary, "panels")) {
+        const PanelSet set = make_panels(*in.segmentation, scene.formwork.panels);   // with all measures
+        in.panels = set.panels;
+        in.sewing_order = report_steps(set, sewing_order(set, *in.segmentation, in.up));
+    }
     if (has(summary, "sew")) {
         in.sewn = arcsim::read_obj(context.dir / "sew/sewn.obj").x;
         in.sewn_strain = read_strain(context.dir / "sew", in.segmentation->mesh.n_faces());
@@ -59,26 +63,20 @@ JsonValue run_report(const StageContext& context) {
     const JsonValue summary = read_summary(context.dir);
     ReportInput in = gather(context, summary);
     context.progress.update({});
-    const auto picture = [&](const std::string& name, const Image& image, const std::string& title, const std::string& caption) {
-        const std::string png = encode_png(image);
-        arcsim::write_file_atomically(context.dir / "pictures" / (name + ".png"), png);
-        in.pictures.push_back({name, title, caption, png});
-    };
-    if (!in.inflated.empty()) {
-        const Surface filled{in.inflated, in.rest.faces};
-        picture("inflated", picture_stretch(filled, in.inflated_strain, in.up, "Filled bag: largest stretch"), "Filled bag", "Largest principal stretch of the isotropic fabric.");
+    in.pictures = draw_pictures(in);
+    JsonValue names = JsonValue::array();
+    for (const ReportPicture& picture : in.pictures) {
+        const std::string name = "pictures/" + picture.name + ".png";
+        arcsim::write_file_atomically(context.dir / name, picture.png);
+        names.add(name);
     }
-    if (in.segmentation) picture("panels_on_bag", picture_panels(*in.segmentation, in.segmentation->mesh, in.up, "Panels"), "Panels on the bag", "Seams follow the strain.");
-    if (!in.panels.empty()) picture("panels_flat", picture_flat_panels(*in.segmentation, in.panels, "Flat panels"), "Flat panels", "Warp upwards, one common scale.");
-    if (!in.sewn.empty()) {
-        const Surface sewn{in.sewn, in.segmentation->mesh.faces};
-        picture("sewn_shear", picture_shear(sewn, in.sewn_strain, in.up, "Sewn bag: shear"), "Sewn bag", "Shear of the weave, |eps_uv|.");
-    }
+    for (const std::string& name : write_viewer_files(in, context.dir)) names.add(name);
     const fs::path file = context.dir / "report.html";
     write_report(in, file);
     context.progress.end("report: " + file.string());
     JsonValue v = JsonValue::object();
     v.set("file", "report.html");
+    v.set("files", std::move(names));
     return v;
 }
 
