@@ -43,7 +43,7 @@ struct BendForce::GroupList : std::vector<Group> {};
 
 BendForce::BendForce(std::vector<Hinge> hinges, std::vector<BendingTable> tables, const VectorXd& x)
     : hinges_(std::move(hinges)), tables_(std::move(tables)), lagged_(hinges_.size()),
-      stiffness_(hinges_.size()), groups_(std::make_shared<GroupList>()) {
+      stiffness_(hinges_.size()), slope_(hinges_.size()), groups_(std::make_shared<GroupList>()) {
     for (size_t i = 0; i < hinges_.size(); ++i) lagged_[i] = hinges_[i].rest_angle;
     std::vector<int> order(hinges_.size());
     std::iota(order.begin(), order.end(), 0);
@@ -199,12 +199,13 @@ void BendForce::add_exact_hessian(const VectorXd& x, BlockMatrix& H) const {
         const auto fold = hinge::fold(p);
         const double theta = hinge::unwrap(std::atan2(fold.sine.value, fold.cosine.value), lagged_[i]);
         const double bend = theta - hinge.rest_angle;
+        const double along = stiffness_[i] + (follows_ ? slope_[i] * bend : 0);   // of the product of gradients
         const auto block = [&](int a, int b) {
             Matrix3d B;
             for (int r = 0; r < 3; ++r)
                 for (int c = 0; c < 3; ++c)
-                    B(r, c) = stiffness_[i] * (fold.gradient[a][r].value * fold.gradient[b][c].value +
-                                               bend * fold.gradient[a][r].d[3 * b + c]);
+                    B(r, c) = along * fold.gradient[a][r].value * fold.gradient[b][c].value +
+                              stiffness_[i] * bend * fold.gradient[a][r].d[3 * b + c];
             return B;
         };
         for (int k = 0; k < 4; ++k) H.add_diagonal(hinge.node[k], block(k, k));
@@ -237,9 +238,12 @@ void BendForce::look_up_stiffness() {
     for (size_t i = 0; i < hinges_.size(); ++i) {
         const Hinge& h = hinges_[i];
         const double curvature = lagged_[i] * h.length / h.area;
-        const double k = std::min(tables_[h.material[0]].k(h.direction[0], curvature),
-                                  tables_[h.material[1]].k(h.direction[1], curvature));
-        stiffness_[i] = k * h.length * h.length / (4 * h.area * h.softening);
+        auto sample = tables_[h.material[0]].sample(h.direction[0], curvature);
+        const auto other = tables_[h.material[1]].sample(h.direction[1], curvature);
+        if (other.k < sample.k) sample = other;
+        const double factor = h.length * h.length / (4 * h.area * h.softening);
+        stiffness_[i] = factor * sample.k;
+        slope_[i] = factor * sample.slope * h.length / h.area;
     }
 }
 

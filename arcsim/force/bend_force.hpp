@@ -25,7 +25,8 @@ struct Hinge {
 ///   E = k l² / (8 a) (theta - theta_rest)²,   f = -k l² / (4 a) (theta - theta_rest) grad theta
 ///
 /// k is the smaller of the two sides' table values at the lagged angle: theta of the positions one step
-/// earlier. With k held it is a potential. @drops definite: the second derivative of theta (Gauss-Newton).
+/// earlier. With k held it is a potential. When k follows theta instead (`follow_angle`, refreshed at the
+/// present positions), the exact tangent includes dk/dtheta. @drops definite: the second derivative of theta (Gauss-Newton).
 class BendForce final : public ClothForce {
 public:
     BendForce(std::vector<Hinge> hinges, std::vector<BendingTable> tables, const VectorXd& x);
@@ -43,6 +44,8 @@ public:
     void bind(const BlockPattern& pattern) override;
 
     bool is_damped() const;
+    /// For methods that refresh at the present positions, so that nothing lags.
+    void follow_angle() { follows_ = true; }
     /// The lagged angles, rad, by hinge: what a resumed run needs beside positions.
     const std::vector<double>& lagged_angles() const { return lagged_; }
     void set_lagged_angles(std::vector<double> angles);
@@ -64,6 +67,8 @@ private:
     std::vector<BendingTable> tables_;
     std::vector<double> lagged_;          // rad
     std::vector<double> stiffness_;       // k l² / (4 a), N m
+    std::vector<double> slope_;           // its derivative by theta, N m
+    bool follows_ = false;
     std::shared_ptr<GroupList> groups_;
 };
 

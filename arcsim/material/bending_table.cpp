@@ -16,14 +16,17 @@ double BendingTable::direction(const Vector2d& e) {
     return d > 2 ? 4 - d : d;
 }
 
-double BendingTable::k(double direction, double c) const {
+BendingTable::Sample BendingTable::sample(double direction, double c) const {
     const double b = std::min(0.1 * c, 4.0);
     const int column = std::clamp(static_cast<int>(std::floor(b)), 0, 3);
     const double fb = b - column;
     const int row = std::clamp(static_cast<int>(direction), 0, 1);
     const double fd = direction - row;
-    const auto along = [&](int r) { return (1 - fb) * rows_[r][column] + fb * rows_[r][column + 1]; };
-    return std::max((1 - fd) * along(row) + fd * along(row + 1), 0.0);
+    const auto mix = [&](int j) { return (1 - fd) * rows_[row][j] + fd * rows_[row + 1][j]; };
+    const double low = mix(column), high = mix(column + 1);
+    const double k = (1 - fb) * low + fb * high;
+    if (k <= 0) return {0, 0};
+    return {k, 0.1 * c < 4 ? 0.1 * (high - low) : 0};
 }
 
 }  // namespace arcsim

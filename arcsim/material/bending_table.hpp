@@ -17,7 +17,13 @@ public:
     ///
     /// @param direction  coordinate of the edge's direction in material space, see `direction()`, 0..2
     /// @param c          curvature measure theta l / (A0 + A1), 1/m, signed
-    double k(double direction, double c) const;
+    double k(double direction, double c) const { return sample(direction, c).k; }
+
+    struct Sample {
+        double k;       // N m
+        double slope;   // dk/dc, N m²; from the right at a column
+    };
+    Sample sample(double direction, double c) const;
 
     /// 4 |angle of e| / pi folded to 0..2, so that 0, 1, 2 are edges at 0, 45, 90 degrees to u.
     static double direction(const Vector2d& e);

@@ -17,27 +17,37 @@ ClothSystem::ClothSystem(ClothModel& model, FillOrder order) : model_(model) {
     solver_->analyze(*pattern_);
 }
 
-void ClothSystem::add_mass() {
-    for (int i = 0; i < model_.n_nodes(); ++i) A_->add_to_diagonal(i, model_.mass[i]);
+void ClothSystem::add_mass(BlockMatrix& A) const {
+    for (int i = 0; i < model_.n_nodes(); ++i) A.add_to_diagonal(i, model_.mass[i]);
 }
 
-void ClothSystem::hold(VectorXd& b, const std::vector<HeldNode>& held, const std::vector<Vector3d>& values) {
-    if (held.empty()) return;
+void ClothSystem::update_fixed(const std::vector<HeldNode>& held) {
     std::vector<int> nodes;
     for (const HeldNode& h : held) nodes.push_back(h.node);
-    if (nodes != held_nodes_) {
-        std::vector<char> flags(3 * model_.n_nodes(), 0);
-        for (int node : nodes)
-            for (int c = 0; c < 3; ++c) flags[3 * node + c] = 1;
-        fixed_ = FixedDofs(*pattern_, std::move(flags));
-        held_nodes_ = std::move(nodes);
-    }
+    if (nodes == held_nodes_) return;
+    std::vector<char> flags(3 * model_.n_nodes(), 0);
+    for (int node : nodes)
+        for (int c = 0; c < 3; ++c) flags[3 * node + c] = 1;
+    fixed_ = FixedDofs(*pattern_, std::move(flags));
+    held_nodes_ = std::move(nodes);
+}
+
+void ClothSystem::hold(BlockMatrix& A, VectorXd& b, const std::vector<HeldNode>& held,
+                       const std::vector<Vector3d>& values) {
+    if (held.empty()) return;
+    update_fixed(held);
     known_.setZero(b.size());
     for (size_t i = 0; i < held.size(); ++i) known_.segment<3>(3 * held[i].node) = values[i];
-    A_->multiply_symmetric(known_, product_);
+    A.multiply_symmetric(known_, product_);
     b -= product_;
     for (size_t i = 0; i < held.size(); ++i) b.segment<3>(3 * held[i].node) = values[i];
-    A_->fix(fixed_);
+    A.fix(fixed_);
+}
+
+void ClothSystem::hold(BlockMatrix& A, const std::vector<HeldNode>& held) {
+    if (held.empty()) return;
+    update_fixed(held);
+    A.fix(fixed_);
 }
 
 }  // namespace arcsim

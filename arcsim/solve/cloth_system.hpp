@@ -26,11 +26,15 @@ public:
     ClothModel& model() { return model_; }
 
     /// A += M.
-    void add_mass();
+    void add_mass(BlockMatrix& A) const;
     /// Turns the rows of held nodes into v = `value` and moves their columns to b.
-    void hold(VectorXd& b, const std::vector<HeldNode>& held, const std::vector<Vector3d>& values);
+    void hold(BlockMatrix& A, VectorXd& b, const std::vector<HeldNode>& held, const std::vector<Vector3d>& values);
+    /// The same for v = 0 there.
+    void hold(BlockMatrix& A, const std::vector<HeldNode>& held);
 
 private:
+    void update_fixed(const std::vector<HeldNode>& held);
+
     ClothModel& model_;
     std::unique_ptr<BlockPattern> pattern_;
     std::unique_ptr<BlockMatrix> A_;

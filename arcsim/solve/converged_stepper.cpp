@@ -17,6 +17,7 @@ ConvergedStepper::ConvergedStepper(ClothModel& model, const StepParams& params, 
     is_damped_ = model.stretch->is_damped() || model.bend->is_damped();
     if (is_damped_ || model.wind->acts()) viscous_ = std::make_unique<BlockMatrix>(system_.pattern());
     size_ = model.size;
+    model.bend->follow_angle();
 }
 
 StepResult ConvergedStepper::step(State& s, double h) {
@@ -104,13 +105,18 @@ double ConvergedStepper::residual(const Problem& p, const VectorXd& v, VectorXd&
     return scale;
 }
 
-bool ConvergedStepper::factorize(const Problem& p, const VectorXd& v, Tangent tangent) {
+bool ConvergedStepper::factorize(const Problem& p, const VectorXd& v, Direction direction) {
     ClothModel& model = system_.model();
     const double t0 = cpu_seconds();
     trial_.v = v;
     trial_.x = p.x + p.h * v;
     model.refresh(trial_.x);   // the last residual may have been another trial's
-    BlockMatrix& A = system_.matrix();
+    if (direction == Direction::unsymmetric && !lu_) {
+        unsymmetric_ = std::make_unique<BlockMatrix>(system_.pattern(), BlockMatrix::Kind::general);
+        lu_ = make_linear_solver(SolverKind::umfpack);
+    }
+    BlockMatrix& A = direction == Direction::unsymmetric ? *unsymmetric_ : system_.matrix();
+    const Tangent tangent = direction == Direction::definite ? Tangent::definite : Tangent::exact;
     A.set_zero();
     model.stretch->add_hessian(trial_, tangent, A);
     model.bend->add_hessian(trial_, tangent, A);
@@ -125,12 +131,11 @@ bool ConvergedStepper::factorize(const Problem& p, const VectorXd& v, Tangent ta
         model.wind->add_velocity_hessian(trial_, *viscous_);
         A.add_scaled(*viscous_, p.h);
     }
-    system_.add_mass();
-    zeros_.assign(model.held.size(), Vector3d::Zero());
-    minus_r_.setZero(v.size());
-    system_.hold(minus_r_, model.held, zeros_);
+    system_.add_mass(A);
+    system_.hold(A, model.held);
     const double t1 = cpu_seconds();
-    const bool done = system_.solver().try_factorize(A);
+    solver_ = direction == Direction::unsymmetric ? lu_.get() : &system_.solver();
+    const bool done = solver_->try_factorize(A);
     cost_.assembly += t1 - t0;
     cost_.factor += cpu_seconds() - t1;
     ++cost_.factorizations;
@@ -140,7 +145,7 @@ bool ConvergedStepper::factorize(const Problem& p, const VectorXd& v, Tangent ta
 void ConvergedStepper::correction(const VectorXd& r, VectorXd& dv) {
     const double t0 = cpu_seconds();
     minus_r_ = -r;
-    system_.solver().solve(minus_r_, dv);
+    solver_->solve(minus_r_, dv);
     cost_.solve += cpu_seconds() - t0;
 }
 
@@ -156,54 +161,74 @@ void ConvergedStepper::fail(const std::string& why, const VectorXd& x) {
     throw NumericalError(why + "; worst face " + std::to_string(face) + ", stretch " + format_short(stretch));
 }
 
+/// Where the iteration of one step stands.
+struct ConvergedStepper::Iterate {
+    VectorXd v, r;
+    double scale = 1;             // of the forces, N
+    double move = INFINITY;       // of the last iteration, m
+    bool is_at_rounding = false;  // it could not be told from none
+};
+
+std::vector<ConvergedStepper::Direction> ConvergedStepper::directions() const {
+    if (params_.tangent == StepTangent::exact) return {Direction::exact, Direction::definite, Direction::unsymmetric};
+    return {Direction::definite};
+}
+
+bool ConvergedStepper::try_direction(const Problem& p, Direction direction, Iterate& now) {
+    const double rounding_move = 1e-13 * size_;
+    if (!factorize(p, now.v, direction)) return false;
+    correction(now.r, dv_);
+    if (!dv_.allFinite()) return false;
+    const double length = mass_norm(dv_);
+    for (double alpha = 1; alpha > 1e-3; alpha /= 2) {
+        v_next_ = now.v + alpha * dv_;
+        const double scale = residual(p, v_next_, r_next_);
+        if (!r_next_.allFinite()) continue;
+        const double move = alpha * p.h * dv_.cwiseAbs().maxCoeff();
+        const bool solved = r_next_.cwiseAbs().maxCoeff() / p.h <= params_.tolerance * scale;
+        const bool smaller = r_next_.squaredNorm() <= std::pow(1 - alpha / 4, 2) * now.r.squaredNorm();
+        if (!solved && !smaller && move > rounding_move) {
+            correction(r_next_, dv_next_);
+            if (!(mass_norm(dv_next_) <= (1 - alpha / 4) * length)) continue;
+        }
+        now.v.swap(v_next_);
+        now.r.swap(r_next_);
+        now.scale = scale;
+        now.move = move;
+        now.is_at_rounding = move <= rounding_move;
+        return true;
+    }
+    return false;
+}
+
 VectorXd ConvergedStepper::solve(const Problem& p, const State& start, StepResult& result) {
-    VectorXd v = start.v, r, r_next, dv, dv_next, v_next;
+    Iterate now;
+    now.v = start.v;
     for (const HeldNode& n : system_.model().held)
-        v.segment<3>(3 * n.node) = (n.target - p.x.segment<3>(3 * n.node)) / p.h;
-    double scale = residual(p, v, r);
-    double last_move = INFINITY;   // m
-    const double small_move = 1e-6 * size_, rounding_move = 1e-13 * size_;
+        now.v.segment<3>(3 * n.node) = (n.target - p.x.segment<3>(3 * n.node)) / p.h;
+    now.scale = residual(p, now.v, now.r);
+    const double small_move = 1e-6 * size_;
+    int slow = 0;                 // iterations in a row with the definite tangent
     for (int iteration = 0; iteration < params_.max_iterations; ++iteration) {
-        result.residual = r.cwiseAbs().maxCoeff() / p.h / std::max(scale, 1e-300);
+        result.residual = now.r.cwiseAbs().maxCoeff() / p.h / std::max(now.scale, 1e-300);
         if (!std::isfinite(result.residual)) fail("the forces are not finite", p.x);
-        if (r.isZero(0) || (result.residual <= params_.tolerance && last_move <= small_move)) return v;
+        const bool solved = result.residual <= params_.tolerance && now.move <= small_move;
+        if (now.r.isZero(0) || now.is_at_rounding || solved) return std::move(now.v);
         ++result.iterations;
         bool accepted = false;
-        const bool try_exact = params_.tangent == StepTangent::exact;
-        for (const Tangent tangent : {Tangent::exact, Tangent::definite}) {
-            if (accepted || (tangent == Tangent::exact && !try_exact)) continue;
-            if (!factorize(p, v, tangent)) {
-                if (tangent == Tangent::definite)
-                    fail("the step's matrix is not positive definite at node " +
-                             std::to_string(system_.solver().breakdown().node), p.x + p.h * v);
-                continue;
-            }
-            correction(r, dv);
-            if (!dv.allFinite()) continue;
-            const double length = mass_norm(dv);
-            for (double alpha = 1; alpha > 1e-3 && !accepted; alpha /= 2) {
-                v_next = v + alpha * dv;
-                const double next_scale = residual(p, v_next, r_next);
-                if (!r_next.allFinite()) continue;
-                const double moved = alpha * p.h * dv.cwiseAbs().maxCoeff();
-                const bool solved = r_next.cwiseAbs().maxCoeff() / p.h <= params_.tolerance * next_scale;
-                if (!solved && moved > rounding_move) {
-                    const bool smaller = r_next.squaredNorm() <= std::pow(1 - alpha / 4, 2) * r.squaredNorm();
-                    if (!smaller) correction(r_next, dv_next);
-                    if (!smaller && !(mass_norm(dv_next) <= (1 - alpha / 4) * length)) continue;
-                }
-                accepted = true;
-                v.swap(v_next);
-                r.swap(r_next);
-                scale = next_scale;
-                last_move = moved;
-                if (moved <= rounding_move) return v;   // nothing smaller can be told apart
-            }
+        for (const Direction direction : directions()) {
+            constexpr int patience = 6;   // the definite tangent converges linearly, if at all
+            if (direction == Direction::definite && slow >= patience && directions().size() > 1) continue;
+            accepted = try_direction(p, direction, now);
+            if (!accepted) continue;
+            slow = direction == Direction::exact ? 0 : slow + 1;
+            break;
         }
-        if (!accepted) fail("no step along Newton's direction helps, residual " + format_short(result.residual), p.x + p.h * v);
+        if (!accepted)
+            fail("no step along Newton's direction helps, residual " + format_short(result.residual), p.x + p.h * now.v);
     }
     fail("no convergence in " + std::to_string(params_.max_iterations) + " iterations, residual " +
-             format_short(result.residual), p.x + p.h * v);
+             format_short(result.residual), p.x + p.h * now.v);
 }
 
 std::vector<double> ConvergedStepper::memory() const {

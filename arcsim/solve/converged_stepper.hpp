@@ -12,8 +12,9 @@ namespace arcsim {
 /// h' = 2h/3 (the first step, and the first after a halving, is backward Euler's). g: gradient of all forces,
 /// D: stiffness-proportional damping. Nothing lags: bending stiffness and the wind's normal are those of x.
 ///
-/// Newton with K = M + h'² H + h' (D + W), H the exact tangent while K can be factorised, else the definite
-/// one. The tabulated law has no potential, so the line search asks that the residual, or else the correction
+/// Newton with K = M + h'² H + h' (D + W). H is the exact tangent while K is positive definite; else the
+/// definite one; and where that does not help, because the balance sought is not a minimum (a sheet that is
+/// pressed together in its plane), the exact unsymmetric one with LU. The tabulated law has no potential, so the line search asks that the residual, or else the correction
 /// that the old matrix would make next (natural monotonicity), becomes smaller; the latter does not suffer
 /// from the ratio of the stiffnesses.
 ///
@@ -36,19 +37,26 @@ private:
     void advance(State& s, double h, StepResult& result);
     VectorXd solve(const Problem& p, const State& start, StepResult& result);
     double residual(const Problem& p, const VectorXd& v, VectorXd& r);   // returns the scale of its forces, N
-    bool factorize(const Problem& p, const VectorXd& v, Tangent tangent);
+    enum class Direction { exact, definite, unsymmetric };
+    bool factorize(const Problem& p, const VectorXd& v, Direction direction);
     void correction(const VectorXd& r, VectorXd& dv);
+    std::vector<Direction> directions() const;
+    struct Iterate;
+    bool try_direction(const Problem& p, Direction direction, Iterate& now);
     double mass_norm(const VectorXd& dv) const;
     [[noreturn]] void fail(const std::string& why, const VectorXd& x);
 
     StepParams params_;
     std::unique_ptr<BlockMatrix> viscous_;          // D + W
+    std::unique_ptr<BlockMatrix> unsymmetric_;      // made when first needed
+    std::unique_ptr<LinearSolver> lu_;
+    LinearSolver* solver_ = nullptr;                // that holds the last factorisation
     bool is_damped_;
     double size_;                                   // of the cloth, m
     double previous_h_ = 0;                         // 0: no step to build on
     VectorXd previous_x_, previous_v_;
     State trial_;
-    VectorXd g_, product_, minus_r_;
+    VectorXd g_, product_, minus_r_, dv_, dv_next_, v_next_, r_next_;
     std::vector<Vector3d> zeros_;
 };
 

@@ -25,13 +25,13 @@ StepResult LinearizedEuler::step(State& s, double h) {
     model.stretch->add_step(s, h, f_, A);
     model.bend->add_step(s, h, f_, A);
     model.springs.add_step(s, h, f_, A);
-    system_.add_mass();
+    system_.add_mass(A);
     b_.resize(s.x.size());
     for (int i = 0; i < model.n_nodes(); ++i)
         b_.segment<3>(3 * i) = model.mass[i] * s.v.segment<3>(3 * i) + h * f_.segment<3>(3 * i);
     held_velocity_.clear();
     for (const HeldNode& n : model.held) held_velocity_.push_back((n.target - s.x.segment<3>(3 * n.node)) / h);
-    system_.hold(b_, model.held, held_velocity_);
+    system_.hold(A, b_, model.held, held_velocity_);
     const double t1 = cpu_seconds();
 
     LinearSolver& solver = system_.solver();

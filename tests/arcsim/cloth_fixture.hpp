@@ -4,8 +4,7 @@
 #include <random>
 #include <string>
 
-#include "arcsim/force/bend_force.hpp"
-#include "arcsim/force/stretch_force.hpp"
+#include "arcsim/force/cloth_model.hpp"
 
 /// A small irregular sheet with its states, for tests of forces and steps.
 
@@ -99,3 +98,26 @@ struct Patch {
         return r;
     }
 };
+
+/// The patch as a cloth: 0.2 kg/m², no air, at `x`.
+inline arcsim::ClothModel patch_model(const Patch& patch, const arcsim::StretchingRows& rows, const arcsim::VectorXd& x,
+                                      const arcsim::Vector3d& gravity = {0, 0, 0}, double damping = 0,
+                                      double air_density = 0) {
+    using namespace arcsim;
+    ClothModel m;
+    m.faces = patch.faces;
+    m.size = 0.03;
+    m.mass = VectorXd::Zero(static_cast<int>(patch.u.size()));
+    std::vector<WindForce::Face> wind;
+    for (const StretchFace& f : patch.stretch_faces(0)) {
+        for (int node : f.node) m.mass[node] += 0.2 * f.area / 3;
+        wind.push_back({f.node, f.area});
+    }
+    m.gravity = std::make_unique<GravityForce>(m.mass, gravity);
+    m.stretch = std::make_unique<StretchForce>(
+        patch.stretch_faces(damping), std::vector{std::shared_ptr<const StiffnessTable>(
+                                          std::make_shared<StiffnessTable>(rows, Sampling::exact))});
+    m.bend = std::make_unique<BendForce>(patch.hinges(damping), std::vector{BendingTable(bending_rows())}, x);
+    m.wind = std::make_unique<WindForce>(wind, air_density, 0.1 * air_density, Vector3d(1, 2, 3), x);
+    return m;
+}

@@ -104,3 +104,54 @@ TEST_CASE("the derivative checker notices a wrong tangent", "[!shouldfail]") {
     const Patch patch;
     check_derivatives(force, patch.states().at("rest"), patch.faces);
 }
+
+TEST_CASE("weight and springs are gradients of their energies") {
+    const Patch patch;
+    for (const auto& [name, state] : patch.states()) {
+        GravityForce gravity(VectorXd::Constant(static_cast<int>(patch.u.size()), 0.01), {1, 2, -9.81});
+        check_derivatives(gravity, state, patch.faces, {.step = 1e-5});
+        SpringForce springs;
+        springs.reserve_pairs({{0, 15}});
+        springs.set({{3, 200, {0.1, 0, 0}}, {5, 40, {0, 0.2, 0}}}, {{0, 15, 30.0}});
+        check_derivatives(springs, state, patch.faces, {.step = 1e-5});
+    }
+}
+
+TEST_CASE("the wind's derivative by the velocity is the limit of its differences and does not drive") {
+    const Patch patch;
+    State s = patch.states().at("bent");
+    s.v = VectorXd::LinSpaced(s.x.size(), -2, 3);
+    std::vector<WindForce::Face> faces;
+    for (const StretchFace& f : patch.stretch_faces(0)) faces.push_back({f.node, f.area});
+    WindForce wind(faces, 1.2, 0.3, {4, -1, 2}, s.x);
+    const BlockPattern pattern(static_cast<int>(patch.u.size()), patch.faces);
+    wind.bind(pattern);
+    BlockMatrix H(pattern);
+    wind.add_velocity_hessian(s, H);
+    const MatrixXd dense = H.dense();
+    for (int d = 0; d < s.v.size(); ++d) {
+        State up = s, down = s;
+        up.v[d] += 1e-6;
+        down.v[d] -= 1e-6;
+        VectorXd g_up = VectorXd::Zero(s.v.size()), g_down = g_up;
+        wind.add_gradient(up, g_up);
+        wind.add_gradient(down, g_down);
+        CHECK(((g_up - g_down) / 2e-6 - dense.col(d)).cwiseAbs().maxCoeff() <= 1e-6 * dense.cwiseAbs().maxCoeff());
+    }
+    CHECK(Eigen::SelfAdjointEigenSolver<MatrixXd>(dense).eigenvalues()[0] >= -1e-12);
+}
+
+TEST_CASE("still air does not move a cloth at rest, and head wind pushes with the density times the area") {
+    const Patch patch;
+    State s = patch.states().at("rest");
+    std::vector<WindForce::Face> faces;
+    double area = 0;
+    for (const StretchFace& f : patch.stretch_faces(0)) faces.push_back({f.node, f.area}), area += f.area;
+    VectorXd g = VectorXd::Zero(s.x.size());
+    WindForce(faces, 1.2, 0.3, {0, 0, 0}, s.x).add_gradient(s, g);
+    CHECK(g.norm() == 0);
+    WindForce(faces, 1.2, 0.3, {0, 0, 5}, s.x).add_gradient(s, g);
+    double lift = 0;
+    for (int i = 2; i < g.size(); i += 3) lift -= g[i];
+    CHECK(lift == Approx(1.2 * area * 25));
+}
