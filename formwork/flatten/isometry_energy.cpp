@@ -52,8 +52,8 @@ double curvature(double s) { return 2 + 6 / (s * s * s * s); }
 
 }  // namespace
 
-IsometryEnergy::IsometryEnergy(const std::vector<Triangle>& faces, const std::vector<Matrix2d>& shapes, int n)
-    : faces_(faces), pattern_(2 * n, 2 * n) {
+IsometryEnergy::IsometryEnergy(const std::vector<Triangle>& faces, const std::vector<Matrix2d>& shapes, int n, double peak)
+    : faces_(faces), pattern_(2 * n, 2 * n), peak_(peak) {
     double total = 0;
     for (const Matrix2d& d : shapes) {
         inverse_.push_back(d.inverse());
@@ -105,7 +105,8 @@ double IsometryEnergy::value(const VectorXd& u) const {
         const Matrix2d F = deformation(u, static_cast<int>(f));
         const double det = F.determinant(), norm2 = F.squaredNorm();
         if (!(det > 0)) return std::numeric_limits<double>::infinity();
-        sum += weight_[f] * (norm2 + norm2 / (det * det) - 4);
+        const double e = norm2 + norm2 / (det * det) - 4;
+        sum += weight_[f] * (e + peak_ * e * e);
     }
     return sum;
 }
@@ -121,7 +122,9 @@ double IsometryEnergy::assemble(const VectorXd& u, double shift, VectorXd& gradi
     for (std::size_t f = 0; f < faces_.size(); ++f) {
         const Triangle& t = faces_[f];
         const SignedSvd d = signed_svd(deformation(u, static_cast<int>(f)));
-        sum += weight_[f] * (d.s1 * d.s1 + d.s2 * d.s2 + 1 / (d.s1 * d.s1) + 1 / (d.s2 * d.s2) - 4);
+        const double e = d.s1 * d.s1 + d.s2 * d.s2 + 1 / (d.s1 * d.s1) + 1 / (d.s2 * d.s2) - 4;
+        sum += weight_[f] * (e + peak_ * e * e);
+        const double slope_of_peak = 1 + 2 * peak_ * e;   // d(e + k e²)/de
         const Matrix46d b = strain_map(inverse_[f]);
 
         // Eigenmatrices of the energy in the frame of the singular vectors.
@@ -135,16 +138,18 @@ double IsometryEnergy::assemble(const VectorXd& u, double shift, VectorXd& gradi
         const double p = d.s1 * d.s2;   // (g1 - g2) / (s1 - s2) without the cancellation
         const double flip_value = 2 + 2 * (d.s1 * d.s1 + p + d.s2 * d.s2) / (p * p * p);
 
-        const Vector6d gradient_f = weight_[f] * b.transpose() * (g1 * stacked(first) + g2 * stacked(second));
+        const Vector6d gradient_of_e = b.transpose() * (g1 * stacked(first) + g2 * stacked(second));
+        const Vector6d gradient_f = weight_[f] * slope_of_peak * gradient_of_e;
         Eigen::Matrix<double, 6, 6> h = Eigen::Matrix<double, 6, 6>::Zero();
         const auto add = [&](double value, const Matrix2d& mode) {
             const Vector6d m = b.transpose() * stacked(mode);
-            h.noalias() += weight_[f] * value * m * m.transpose();
+            h.noalias() += weight_[f] * slope_of_peak * value * m * m.transpose();
         };
         add(curvature(d.s1), first);
         add(curvature(d.s2), second);
         add(twist_value, twist);
         add(flip_value, flip);
+        if (peak_ > 0) h.noalias() += 2 * weight_[f] * peak_ * gradient_of_e * gradient_of_e.transpose();
 
         for (int k = 0; k < 6; ++k) gradient[local_dof(t, k)] += gradient_f[k];
         int next = 0;

@@ -18,12 +18,13 @@ using arcsim::VectorXd;
 ///   E(u) = sum_f A_f (s1² + s2² + 1/s1² + 1/s2² - 4) / sum_f A_f        [Smith and Schaefer 2015]
 ///
 /// s are the singular values of the map from face f's own shape to the plane. E is infinite as soon as a
-/// face loses its area.
+/// face loses its area. With `peak` k > 0 a face counts e_f + k e_f² instead of its e_f: faces far from
+/// isometric give way first, so that stretch does not pile up at corners and singular nodes.
 class IsometryEnergy {
 public:
     /// @param shapes  per face, columns: edges 0->1 and 0->2 in the face's plane, m, positive determinant
     /// @param n       number of vertices; u has 2n entries (x0, y0, x1, ...)
-    IsometryEnergy(const std::vector<Triangle>& faces, const std::vector<Matrix2d>& shapes, int n);
+    IsometryEnergy(const std::vector<Triangle>& faces, const std::vector<Matrix2d>& shapes, int n, double peak = 0);
 
     double value(const VectorXd& u) const;
 
@@ -51,6 +52,7 @@ private:
     std::vector<std::array<int, 21>> slot_;   // of a face's lower triangle in the sparse values
     std::vector<int> diagonal_;
     double diagonal_scale_ = 0;
+    double peak_ = 0;
 };
 
 }  // namespace formwork

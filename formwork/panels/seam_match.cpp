@@ -109,7 +109,7 @@ public:
         for (std::size_t p = 0; p < blocks_.size(); ++p) {
             const FlatPanel& panel = set.panels[p];
             Block& block = blocks_[p];
-            block.energy = std::make_unique<IsometryEnergy>(panel.faces, shapes[p], static_cast<int>(panel.u.size()));
+            block.energy = std::make_unique<IsometryEnergy>(panel.faces, shapes[p], static_cast<int>(panel.u.size()), getenv("PEAK") ? atof(getenv("PEAK")) : 0);
             block.weight = 0;
             for (const Matrix2d& d : shapes[p]) block.weight += d.determinant() / 2;
             total += block.weight;

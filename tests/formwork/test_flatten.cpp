@@ -137,7 +137,8 @@ TEST_CASE("flattening does not depend on where the disk stands, on its size or o
 
 TEST_CASE("the isometry energy's gradient and projected Hessian agree with differences") {
     const Surface s = cap(3, 8, 1.2);
-    const IsometryEnergy energy(s.faces, rest_shapes(s), s.n_nodes());
+    const double peak = GENERATE(0.0, 3.0);
+    const IsometryEnergy energy(s.faces, rest_shapes(s), s.n_nodes(), peak);
     std::mt19937 random(7);
     std::uniform_real_distribution<double> jitter(-0.02, 0.02);
     VectorXd u(2 * s.n_nodes()), g, g2;
@@ -150,7 +151,7 @@ TEST_CASE("the isometry energy's gradient and projected Hessian agree with diffe
     for (int i = 0; i < u.size(); ++i) {
         VectorXd plus = u, minus = u;
         plus[i] += d, minus[i] -= d;
-        CHECK(g[i] == Approx((energy.value(plus) - energy.value(minus)) / (2 * d)).margin(1e-6));
+        CHECK(g[i] == Approx((energy.value(plus) - energy.value(minus)) / (2 * d)).margin(1e-6 * (1 + peak * g.norm())));
         energy.assemble(plus, 0, g2, ignored);
         VectorXd column = g2;
         energy.assemble(minus, 0, g2, ignored);
