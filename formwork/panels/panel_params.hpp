@@ -52,6 +52,7 @@ struct PanelParams {
     bool stretch_compensation = false;
     double notch_spacing_mm = 100, notch_length_mm = 4;
     double max_distortion = 0.3, max_seam_mismatch = 0.002;
+    double peak_weight = 20;
     double roll_width_mm = 1500, nest_gap_mm = 5;
     bool quarter_turns = false;
     Paper paper = Paper::a4;
@@ -74,6 +75,9 @@ void visit(Archive& a, PanelParams& p) {
                "Cut every face smaller by its simulated stretch, so that the filled bag has the size of the surface that is cut.");
     a.optional("notch_spacing_mm", p.notch_spacing_mm, "mm", between(10, 1000), "Largest distance between notches of a seam.");
     a.optional("notch_length_mm", p.notch_length_mm, "mm", between(1, 20), "Depth of a notch from the cut edge.");
+    a.optional("peak_weight", p.peak_weight, "1", between(0, 1000),
+               "How much more a strongly distorted face counts than a slightly distorted one when panels are laid flat; 0: all alike. "
+               "Keeps stretch from piling up at corners.");
     a.optional("max_distortion", p.max_distortion, "1", between(0, 10),
                "A panel is refused when more than 5 % of its area would have to stretch or shrink by more than this.");
     a.optional("max_seam_mismatch", p.max_seam_mismatch, "1", between(1e-6, 1),

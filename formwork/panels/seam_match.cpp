@@ -59,7 +59,8 @@ std::vector<Equality> equalities(const PanelSet& set, const Segmentation& s) {
             if (k > 0 && at[k] < window) chords.push_back({0, k, share / window});
         }
         const int hats = std::max(1, static_cast<int>(std::round(hats_per_spacing * length / spacing)));
-        for (int h = 0; h <= hats; ++h) {
+        const int skip = getenv("HATS") ? 1 : 0;
+        for (int h = skip; h <= hats - skip; ++h) {
             Equality equality;
             equality.seam = static_cast<int>(i);
             for (const Equality::Chord& c : chords) {
@@ -109,7 +110,7 @@ public:
         for (std::size_t p = 0; p < blocks_.size(); ++p) {
             const FlatPanel& panel = set.panels[p];
             Block& block = blocks_[p];
-            block.energy = std::make_unique<IsometryEnergy>(panel.faces, shapes[p], static_cast<int>(panel.u.size()), getenv("PEAK") ? atof(getenv("PEAK")) : 0);
+            block.energy = std::make_unique<IsometryEnergy>(panel.faces, shapes[p], static_cast<int>(panel.u.size()), set.params.peak_weight);
             block.weight = 0;
             for (const Matrix2d& d : shapes[p]) block.weight += d.determinant() / 2;
             total += block.weight;
