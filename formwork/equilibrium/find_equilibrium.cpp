@@ -80,12 +80,15 @@ private:
         blow.add_gradient(s, push);
         system_.fixed().clear(push);
         BlockMatrix L(system_.pattern());
-        system_.add_laplacian(4 * system_.scales().tension, L);   // a shallow bulge: a sixteenth of R deep
+        system_.add_laplacian(system_.scales().tension, L);
         const auto solver = arcsim::make_linear_solver(arcsim::SolverKind::cholmod);
         solver->analyze(system_.pattern());
         if (!solver->try_factorize(L)) return;
         solver->solve(push, d);
-        x_ -= d;
+        // As deep as a membrane of this stiffness sags under that pressure, 0.66 R (p R / k)^(1/3) [Hencky 1915].
+        const double tension = system_.scales().tension / system_.membrane().law().rest_stiffness();
+        const double depth = 0.66 * system_.scales().radius * std::min(1.0, std::cbrt(tension));
+        x_ -= depth / d.lpNorm<Eigen::Infinity>() * d;
     }
 
     void solve_or_throw(double tolerance, double T0, const std::string& phase) {

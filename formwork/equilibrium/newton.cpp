@@ -12,8 +12,8 @@ using arcsim::SolverKind;
 
 namespace {
 
-constexpr int pcg_limit = 40;            // beyond, a new factor is cheaper
-constexpr int pcg_refactor_next = 8;     // beyond, the next step gets a new factor
+constexpr int pcg_limit = 60;            // beyond, a new factor is cheaper
+constexpr int pcg_refactor_next = 14;     // beyond, the next step gets a new factor
 constexpr double fade_below = 1e-6;      // of T*: smaller regularisations are set to nothing
 constexpr double wake_at = 1e-4;         // of T*: the first one tried where the tangent is not definite
 constexpr double largest_step = 0.5;     // of the rest shape's half width per Newton step
@@ -88,9 +88,12 @@ bool NewtonSolver::direction(double& T0, double relative) {
             factor_is_stale_ = out.iterations > pcg_refactor_next;
             return true;
         }
-        factor_is_stale_ = true;
-        if (!fresh) continue;
-        if (out.status == PcgStatus::out_of_iterations) return true;   // a poor but descending direction
+        if (out.status == PcgStatus::out_of_iterations) {
+            factor_is_stale_ = true;
+            if (!fresh) continue;
+            return true;                                               // a poor but descending direction
+        }
+        // Negative curvature is the tangent's own, whatever the preconditioner: no factorisation would help.
         const double raised = std::max(10 * T0, wake_at * T_ref_);
         system_.add_laplacian(raised - T0, H_);
         T0 = raised;
