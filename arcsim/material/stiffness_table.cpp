@@ -40,12 +40,12 @@ LargestStretch largest_stretch(const Vector3d& G) {
 }  // namespace
 
 StiffnessSample interpolate_stiffness(const StretchingRows& rows, const Vector3d& G, double full_strain,
-                                      double factor) {
+                                      double factor, double largest_s) {
     const LargestStretch stretch = largest_stretch(G);
-    constexpr double below_one = 1 - 1e-6, below_four = 4 - 1e-6;   // ArcSim's clamps
+    constexpr double below_four = 4 - 1e-6;   // ArcSim's clamp
     const double root = std::sqrt(std::max(stretch.l1, 0.0));
     const double s_free = (root - 1) / full_strain;
-    const double s = std::clamp(s_free, 0.0, below_one);
+    const double s = std::clamp(s_free, 0.0, largest_s);
     const double a_free = stretch.phi * columns_per_radian;
     const double a = std::clamp(a_free, 0.0, below_four);
     const int column = static_cast<int>(a);
@@ -73,7 +73,7 @@ StiffnessTable::StiffnessTable(const StretchingRows& rows, Sampling sampling, do
             for (int k = 0; k < n; ++k) {
                 const Vector3d G(grid_min + i * grid_step, grid_min + j * grid_step, k * grid_step);
                 grid_[(i * n + j) * n + k] =
-                    multiplier * interpolate_stiffness(rows, G, full_strain, file_factor).k;
+                    multiplier * interpolate_stiffness(rows, G, full_strain, file_factor, arcsim_largest_s).k;
             }
 }
 

@@ -27,8 +27,11 @@ struct StiffnessSample {
 ///
 /// With equal eigenvalues and l1 > 1 the angle, hence k, depends on the side from which one comes; the
 /// derivative drops the angle's part there.
+///
+/// @param largest_s  where s ends: 1; ArcSim's grid is made with `arcsim_largest_s`
 StiffnessSample interpolate_stiffness(const StretchingRows& rows, const Vector3d& G, double full_strain,
-                                      double factor);
+                                      double factor, double largest_s = 1);
+inline constexpr double arcsim_largest_s = 1 - 1e-6;
 
 /// k(G) of one material. ArcSim multiplies every entry of a material file by 2; `file_factor` is that 2.
 class StiffnessTable {

@@ -15,12 +15,10 @@ double lowest_point(const VectorXd& x, const Vector3d& up) {
     return low;
 }
 
-/// Volume below the rim plane, or of the whole shape when nothing is held.
+/// Volume below the rim plane; of the whole shape when it is closed or nothing is held.
 double capacity(const StaticSystem& system, const VectorXd& x) {
-    double top = system.rim_height();
-    if (!std::isfinite(top)) {
-        top = -lowest_point(x, -system.pressure().up());
-    }
+    const bool has_rim = !system.is_closed() && std::isfinite(system.rim_height());
+    const double top = has_rim ? system.rim_height() : -lowest_point(x, -system.pressure().up());
     return system.pressure().totals(x, top).volume;
 }
 

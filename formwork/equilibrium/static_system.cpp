@@ -38,6 +38,16 @@ std::vector<char> hold_flags(const EquilibriumProblem& p) {
     return held;
 }
 
+bool has_no_open_edge(const std::vector<Triangle>& faces) {
+    std::vector<std::array<int, 2>> edges;
+    for (const Triangle& t : faces)
+        for (int k = 0; k < 3; ++k) edges.push_back({std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])});
+    std::sort(edges.begin(), edges.end());
+    for (std::size_t i = 0; i < edges.size(); i += 2)
+        if (i + 1 == edges.size() || edges[i] != edges[i + 1]) return false;
+    return true;
+}
+
 /// Mean height of the nodes held in all axes; of any held ones when there are none.
 double mean_held_height(const std::vector<char>& fixed, const VectorXd& x, const Vector3d& up) {
     for (int needed : {3, 1}) {
@@ -129,6 +139,7 @@ StaticSystem::StaticSystem(const EquilibriumProblem& p) : seams_(p.seams) {
     pressure_->bind(*pattern_);
     seams_.bind(*pattern_);
 
+    is_closed_ = has_no_open_edge(p.rest.faces);
     weight_.setZero(3 * n);
     has_weight_ = p.self_weight && p.fabric_density > 0;
     if (has_weight_)
@@ -151,7 +162,7 @@ void StaticSystem::set_fill(const EquilibriumProblem& p, const VectorXd& start) 
         lowest = std::min(lowest, q.dot(d));
         highest = std::max(highest, q.dot(d));
     }
-    const double top = std::isfinite(rim_height_) ? rim_height_ : highest;
+    const double top = std::isfinite(rim_height_) && !is_closed_ ? rim_height_ : highest;
     double level = std::numeric_limits<double>::quiet_NaN();
     if (has_liquid_) {
         const FillParams& fill = *p.plaster.fill;

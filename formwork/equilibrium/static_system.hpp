@@ -38,6 +38,7 @@ public:
     bool has_load() const { return has_load_; }
     bool level_is_unknown() const { return target_volume_ > 0; }
     double target_volume() const { return target_volume_; }
+    bool is_closed() const { return is_closed_; }            // no face has an open edge
     double rim_height() const { return rim_height_; }        // mean height of the held nodes; NaN without any
     double ordering_s() const { return ordering_s_; }
 
@@ -69,7 +70,7 @@ private:
     SeamForce seams_;
     VectorXd weight_;          // self-weight, 3n, N
     Scales scales_;
-    bool has_liquid_ = false, has_load_ = false, has_weight_ = false;
+    bool has_liquid_ = false, has_load_ = false, has_weight_ = false, is_closed_ = false;
     double target_volume_ = 0, rim_height_ = 0, load_factor_ = 1, ordering_s_ = 0;
     State state_;
 };

@@ -1,6 +1,7 @@
 #include "formwork/fabric/tensor_wrinkle.hpp"
 
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -20,6 +21,7 @@ struct Objective {
 
     struct Value {
         double e, w, dw, ddw;
+        double up;   // sign: where larger w with e > 0 lies
     };
     Value at(double a) const {
         const double c = std::cos(a), s = std::sin(a);
@@ -37,9 +39,38 @@ struct Objective {
         r.dw = e * de / q - e * e * dq / (2 * q * q);
         r.ddw = (de * de + e * dde) / q - 2 * e * de * dq / (q * q) - e * e * ddq / (2 * q * q) +
                 e * e * dq * dq / (q * q * q);
+        r.up = e > 0 ? r.dw : de;
         return r;
     }
 };
+
+double scan_cos(int i) {
+    static const std::array<double, 24> table = [] {
+        std::array<double, 24> t;
+        for (int k = 0; k < 24; ++k) t[k] = std::cos(pi * k / 24);
+        return t;
+    }();
+    return table[i];
+}
+double scan_sin(int i) { return i <= 12 ? scan_cos(12 - i) : scan_cos(i - 12); }
+
+/// Newton's method inside the bracket start -+ width; `top` gets the angle of the maximum of w where e > 0.
+/// @returns twice w there; 0 when e is never positive
+double climb(const Objective& f, double start, double width, double& top) {
+    double low = start - width, high = start + width, a = start;
+    Objective::Value v = f.at(a);
+    for (int i = 0; i < 60; ++i) {
+        (v.up > 0 ? low : high) = a;
+        double next = v.e > 0 && v.ddw < 0 ? a - v.dw / v.ddw : 0.5 * (low + high);
+        if (!(next > low && next < high)) next = 0.5 * (low + high);
+        const bool done = std::abs(next - a) < 1e-15 || high - low < 1e-15;
+        a = next;
+        if (done) break;
+        v = f.at(a);
+    }
+    top = a;
+    return v.e > 0 ? 2 * v.w : 0;
+}
 
 }  // namespace
 
@@ -53,26 +84,23 @@ Wrinkle wrinkle_of_constant(const arcsim::Stiffness4& k, const Vector3d& eps) {
     const double det = kuu * kvv - kuv * kuv;
     const Objective f{eps[0], eps[1], 2 * eps[2], kvv / det, -kuv / det, kuu / det, 2 / kss};
 
-    constexpr int n_scan = 24;                 // 7.5 degrees: narrower than any maximum of a ratio of quartics here
-    double best = 0, best_w = -1;
+    // Every maximum that shows between samples is followed to its top, and so is the principal direction of strain: there
+    // e > 0, however narrow the tension's range of angles may be.
+    constexpr int n_scan = 24;
+    double w_at[n_scan];
     for (int i = 0; i < n_scan; ++i) {
-        const double a = pi * i / n_scan;
-        const double c = std::cos(a), s = std::sin(a);
-        const double e = c * c * f.v0 + s * s * f.v1 + c * s * f.v2;
-        if (e <= 0) continue;
-        const double q = f.s11 * c * c * c * c + f.s22 * s * s * s * s + (2 * f.s12 + f.s66) * c * c * s * s;
-        if (e * e > best_w * q) best_w = e * e / q, best = a;
+        const double c = scan_cos(i), s = scan_sin(i), C = c * c, S = s * s, P = c * s;
+        const double e = C * f.v0 + S * f.v1 + P * f.v2;
+        const double q = f.s11 * C * C + f.s22 * S * S + (2 * f.s12 + f.s66) * P * P;
+        w_at[i] = e > 0 ? e * e / q : 0;
     }
-    if (best_w < 0) best = 0.5 * std::atan2(2 * eps[2], eps[0] - eps[1]);   // a sliver of tension between two samples
-    double low = best - pi / n_scan, high = best + pi / n_scan, a = best;
-    for (int i = 0; i < 60; ++i) {             // Newton inside a shrinking bracket of the stationary point
-        const Objective::Value v = f.at(a);
-        (v.dw > 0 ? low : high) = a;
-        double next = v.ddw < 0 ? a - v.dw / v.ddw : 0.5 * (low + high);
-        if (!(next > low && next < high)) next = 0.5 * (low + high);
-        const bool done = std::abs(next - a) < 1e-15;
-        a = next;
-        if (done || high - low < 1e-15) break;
+    double a = 0.5 * std::atan2(2 * eps[2], eps[0] - eps[1]);
+    double best_w = climb(f, a, pi / n_scan, a);
+    for (int i = 0; i < n_scan; ++i) {
+        const double before = w_at[(i + n_scan - 1) % n_scan], after = w_at[(i + 1) % n_scan];
+        if (!(w_at[i] > 0 && w_at[i] >= before && w_at[i] > after)) continue;
+        double top = 0;
+        if (const double w = climb(f, pi * i / n_scan, pi / n_scan, top); w > best_w) best_w = w, a = top;
     }
     const double c = std::cos(a), s = std::sin(a);
     const Vector3d N(c * c, s * s, c * s);
