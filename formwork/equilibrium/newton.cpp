@@ -18,6 +18,7 @@ constexpr double fade_below = 1e-6;      // of T*: smaller regularisations are s
 constexpr double wake_at = 1e-4;         // of T*: the first one tried where the tangent is not definite
 constexpr double largest_step = 0.5;     // of the rest shape's half width per Newton step
 constexpr int most_halvings = 12;
+constexpr int patience = 60;             // Newton steps without a new best residual
 constexpr double runaway_stretch = 12;   // far beyond any table; a bag that large has no equilibrium
 
 SolverKind kind_of(LinearSolverChoice c) {
@@ -143,7 +144,8 @@ NewtonOutcome NewtonSolver::solve(VectorXd& x, double tolerance, double T0, cons
                                                : 1e-300;
     const auto relative = [&](const StaticSystem::Balance& b) { return b.residual / std::max(b.load, expected); };
     double step = 1;
-    int slow = 0;
+    int slow = 0, best_at = iterations_;
+    double best = std::numeric_limits<double>::infinity();
     for (;; ++iterations_) {
         out.residual = relative(now);
         report(phase, out.residual, step, x);
@@ -159,7 +161,8 @@ NewtonOutcome NewtonSolver::solve(VectorXd& x, double tolerance, double T0, cons
             out.status = NewtonStatus::runaway;
             return out;
         }
-        if (iterations_ >= limit_) {
+        if (out.residual < 0.9 * best) best = out.residual, best_at = iterations_;
+        if (iterations_ >= limit_ || iterations_ - best_at > patience) {
             out.status = NewtonStatus::out_of_iterations;
             return out;
         }

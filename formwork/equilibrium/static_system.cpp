@@ -163,6 +163,10 @@ void StaticSystem::set_fill(const EquilibriumProblem& p, const VectorXd& start) 
         highest = std::max(highest, q.dot(d));
     }
     const double top = std::isfinite(rim_height_) && !is_closed_ ? rim_height_ : highest;
+    scales_.area = membrane_->total_rest_area();
+    const Vector3d widths = half_widths(p.rest);
+    scales_.radius = radius_of(p.rest, fixed_.flags(), d, widths);
+    scales_.reach = std::max(scales_.radius, widths[2]);
     double level = std::numeric_limits<double>::quiet_NaN();
     if (has_liquid_) {
         const FillParams& fill = *p.plaster.fill;
@@ -186,16 +190,15 @@ void StaticSystem::set_fill(const EquilibriumProblem& p, const VectorXd& start) 
         }
         if (level_is_unknown()) level = top;
         pressure_->set_level(level);
-        if (level_is_unknown()) update_level(rest);
+        if (level_is_unknown()) {
+            level_cap_ = top + 0.5 * scales_.radius;
+            update_level(rest);
+        }
     } else {
         pressure_->set_level(-1e300);
     }
     pressure_->set_reference(top);
 
-    scales_.area = membrane_->total_rest_area();
-    const Vector3d widths = half_widths(p.rest);
-    scales_.radius = radius_of(p.rest, fixed_.flags(), d, widths);
-    scales_.reach = std::max(scales_.radius, widths[2]);
     const double liquid_level = has_liquid_ ? pressure_->level() : 0;
     // A flat sheet sags by about half its half width; a bag is at least as deep as its rest shape.
     if (has_liquid_)
@@ -213,7 +216,10 @@ void StaticSystem::set_load_factor(double s) {
 }
 
 void StaticSystem::update_level(const VectorXd& x) {
-    if (level_is_unknown()) pressure_->set_level(level_of_volume(*pressure_, x, target_volume_, pressure_->level()));
+    if (!level_is_unknown()) return;
+    const double level = level_of_volume(*pressure_, x, target_volume_, pressure_->level());
+    level_is_capped_ = level > level_cap_;
+    pressure_->set_level(std::min(level, level_cap_));
 }
 
 StaticSystem::Balance StaticSystem::gradient(const VectorXd& x, VectorXd& g) {
@@ -248,7 +254,7 @@ void StaticSystem::tangent(const VectorXd& x, double T0, BlockMatrix& H, VectorX
     if (T0 > 0) membrane_->add_laplacian(T0, H);
     H.fix(fixed_);
     border.resize(0);
-    if (!level_is_unknown()) return;
+    if (!level_is_unknown() || level_is_capped_) return;
     const double waterplane = pressure_->totals(x, pressure_->level()).waterplane;
     if (!(waterplane > 0)) return;
     pressure_->level_derivative(x, border);

@@ -37,6 +37,10 @@ public:
     bool has_liquid() const { return has_liquid_; }
     bool has_load() const { return has_load_; }
     bool level_is_unknown() const { return target_volume_ > 0; }
+    /// While the bag is still flat, the level that its volume asks for may stand metres above it: until the bag has opened
+    /// the level stops at a cap, and is then a prescribed one. An equilibrium at the cap is none: raise it and go on.
+    bool level_is_capped() const { return level_is_capped_; }
+    void raise_level_cap() { level_cap_ += scales_.radius; }
     double target_volume() const { return target_volume_; }
     bool is_closed() const { return is_closed_; }            // no face has an open edge
     double rim_height() const { return rim_height_; }        // mean height of the held nodes; NaN without any
@@ -70,8 +74,9 @@ private:
     SeamForce seams_;
     VectorXd weight_;          // self-weight, 3n, N
     Scales scales_;
-    bool has_liquid_ = false, has_load_ = false, has_weight_ = false, is_closed_ = false;
+    bool has_liquid_ = false, has_load_ = false, has_weight_ = false, is_closed_ = false, level_is_capped_ = false;
     double target_volume_ = 0, rim_height_ = 0, load_factor_ = 1, ordering_s_ = 0;
+    double level_cap_ = 1e300;
     State state_;
 };
 

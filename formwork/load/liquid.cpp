@@ -1,9 +1,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <limits>
 
-#include "arcsim/base/error.hpp"
 #include "formwork/load/pressure_force.hpp"
 
 namespace formwork {
@@ -41,10 +40,7 @@ double level_of_volume(const PressureForce& load, const VectorXd& x, double volu
     double top = high;
     LiquidTotals at_top = load.totals(x, top);
     if (at_top.volume < volume) {
-        if (at_top.waterplane <= 1e-9 * size * size)
-            throw arcsim::NumericalError("fill: the closed bag holds " + std::to_string(at_top.volume) +
-                                         " m³ in this shape, less than the volume asked for (" +
-                                         std::to_string(volume) + " m³). Lower /formwork/plaster/fill");
+        if (at_top.waterplane <= 1e-9 * size * size) return std::numeric_limits<double>::infinity();
         return top + (volume - at_top.volume) / at_top.waterplane;
     }
     double bottom = low, h = std::clamp(start, bottom, top);

@@ -88,7 +88,8 @@ private:
 /// decides (then the mesh's normals are kept).
 int liquid_orientation(const std::vector<Triangle>& faces, const VectorXd& x, const Vector3d& up, double level);
 
-/// The level at which the shape holds `volume`. @throws arcsim::NumericalError: a closed shape that is too small
+/// The level at which the shape holds `volume`, above the highest node where an open rim lets it; infinite for a closed
+/// shape that is too small.
 double level_of_volume(const PressureForce& load, const VectorXd& x, double volume, double start);
 
 }  // namespace formwork

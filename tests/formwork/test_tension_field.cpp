@@ -131,8 +131,10 @@ TEST_CASE("the orthotropic relaxed energy is the minimum over all wrinkle strain
             best = std::min(best, W(std::max(0.0, -l / (2 * q))));
         }
         CAPTURE(e.transpose());
-        REQUIRE(evaluate_one(law, e, Want::energy).psi == Approx(best).epsilon(1e-5));
-        REQUIRE(evaluate_one(law, e, Want::energy).psi <= best * (1 + 1e-9));
+        // half a step of the angle is 4e-4 rad times p, a strain error whose energy may be 1e-3 of a small one
+        const double psi = evaluate_one(law, e, Want::energy).psi;
+        REQUIRE(psi <= best * (1 + 1e-9));
+        REQUIRE(psi >= best * (1 - 1e-3) - 1e-9);
     }
     REQUIRE(wrinkled > 50);
 }
