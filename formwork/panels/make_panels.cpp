@@ -114,6 +114,18 @@ PanelSet make_panels(const Segmentation& s, const PanelParams& params) {
     return set;
 }
 
+void measure_panels(PanelSet& set, const Segmentation& s) {
+    for (FlatPanel& panel : set.panels) {
+        const Surface surface = panel_surface(s, panel);
+        const std::vector<Matrix2d> shapes = rest_shapes(surface);
+        panel.rest_area = arcsim::total_area(surface);
+        measure_grain(s, shapes, panel);
+        measure_panel(shapes, panel);
+    }
+    measure_seams(set, s);
+    set.metrics = measure_set(set);
+}
+
 std::vector<Vector2d> flat_chain(const PanelSet& set, const SeamSide& side) {
     std::vector<Vector2d> chain;
     for (int v : side.vertex) chain.push_back(set.panels[side.panel].u[v]);

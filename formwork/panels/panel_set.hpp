@@ -53,6 +53,9 @@ struct PanelSet {
 ///                     with the panel's or seam's printed number and what to change
 PanelSet make_panels(const Segmentation& segmentation, const PanelParams& params);
 
+/// Measures panels and seams again from their flat coordinates: for a set that was read back from files.
+void measure_panels(PanelSet& set, const Segmentation& segmentation);
+
 /// Flat positions of one side of a seam, m.
 std::vector<Vector2d> flat_chain(const PanelSet& set, const SeamSide& side);
 

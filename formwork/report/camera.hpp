@@ -36,6 +36,7 @@ public:
     Vector3d to_view(const Vector3d& direction) const;  // right, up, towards the eye
     Vector3d towards_eye(const Vector3d& from) const;   // unit vector from a point to the eye
     double diameter() const { return 2 * radius_; }
+    double scale() const { return scale_; }   // px per metre at the middle of the shape
 
 private:
     Vector3d centre_, right_, up_, back_;

@@ -94,6 +94,9 @@ std::vector<std::pair<Projected, const Mark3*>> visible_marks(const Raster& rast
         if (!raster.is_visible(p)) continue;
         if (m.group >= 0) {
             const double rank = m.weight * m.normal.dot(camera.towards_eye(m.at));
+            constexpr double least_px =
+                9;  // of room between the mark and the border of what it names
+            if (rank * camera.scale() < least_px) continue;
             const auto [it, is_first] = best.try_emplace(m.group, rank, seen.size());
             if (!is_first) {
                 if (rank > it->second.first)

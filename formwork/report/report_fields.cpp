@@ -1,5 +1,6 @@
 #include "formwork/report/report_fields.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -55,6 +56,14 @@ public:
     void add_weave() {
         add("shear", "shear |\u03b5_uv|", "-", false,
             [](const FaceStrain& s) { return std::abs(s.eps_uv); });
+        // Corollary 1: deformed warp and weft meet at theta with cos theta = 2 eps_uv / (lambda_u
+        // lambda_v).
+        add("angle", "angle of warp and weft off 90\u00b0", "\u00b0", true,
+            [](const FaceStrain& s) {
+                const double lengths = std::sqrt(std::max(1 + 2 * s.eps_uu, 1e-12) *
+                                                 std::max(1 + 2 * s.eps_vv, 1e-12));
+                return -std::asin(std::clamp(2 * s.eps_uv / lengths, -1.0, 1.0)) * 180 / M_PI;
+            });
         add("warp", "warp strain \u03b5_uu", "-", true,
             [](const FaceStrain& s) { return s.eps_uu; });
         add("weft", "weft strain \u03b5_vv", "-", true,

@@ -129,6 +129,7 @@ PanelSet read_panels(const fs::path& sewn_rest, const Segmentation& s) {
         }
     }
     if (next != mesh.u.size()) throw InputError(sewn_rest.string() + ": has more vt than the panels have vertices. Run panels again.");
+    measure_panels(set, s);
     return set;
 }
 

@@ -53,7 +53,7 @@ TEST_CASE(
     CHECK(data["pictures"].size() == 13);
     CHECK(data["mesh"]["shapes"].size() == 3);
     CHECK(data["panels"].size() == 5);
-    CHECK(data["fields"].size() == 12);
+    CHECK(data["fields"].size() == 13);
     CHECK(data["summary"]["inflate"]["volume_m3"] == 0.0024);
 }
 

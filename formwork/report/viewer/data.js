@@ -35,6 +35,14 @@ const Data = (() => {
   const crosses = raw.mesh.crosses ? {faces: plain(raw.mesh.crosses.faces), parts: plain(raw.mesh.crosses.parts)} : null;
   const fields = raw.fields.map(f => ({...f, values: numbers(f.values)}));
 
+  // Areas at rest: what shares and means of fields are weighted with.
+  const areas = new Float64Array(faces.length / 3), rest = shapes[0].x;
+  for (let f = 0; f < areas.length; ++f) {
+    const [a, b, c] = [0, 1, 2].map(k => 3 * faces[3 * f + k]), u = [0, 1, 2].map(k => rest[b + k] - rest[a + k]), v = [0, 1, 2].map(k => rest[c + k] - rest[a + k]);
+    areas[f] = Math.hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2;
+  }
+  const ofFace = (field, f) => field.per_node ? (field.values[faces[3 * f]] + field.values[faces[3 * f + 1]] + field.values[faces[3 * f + 2]]) / 3 : field.values[f];
+
   // Per panel the seams around it: the panel beyond (-1: a rim), the seam and its length, m.
   const neighbours = raw.panels.map(() => []);
   (raw.mesh.seams || []).forEach((s, seam) => {
@@ -44,7 +52,7 @@ const Data = (() => {
   });
   for (const list of neighbours) list.sort((p, q) => p.panel - q.panel || p.seam - q.seam);
   return {
-    raw, faces, shapes, panelOfFace, crosses, fields, maps, neighbours, panels: raw.panels,
+    raw, areas, ofFace, faces, shapes, panelOfFace, crosses, fields, maps, neighbours, panels: raw.panels,
     seams: raw.mesh.seams || [], singularities: raw.mesh.singularities || [],
     labelFaces: raw.mesh.label_faces || [],
   };

@@ -45,12 +45,34 @@
     box.append(element('div', {class: 'bar'}, element('div', {class: 'ramp', style: `background:linear-gradient(to top,${stops.join()})`}), ticks));
   }
 
+  // How the area is spread over the values: bars in the colours of the bag, and the numbers behind them.
+  function distribution(field) {
+    const box = byId('distribution');
+    box.replaceChildren();
+    if (!field) return;
+    const values = Array.from(Data.areas, (_, f) => Data.ofFace(field, f)), total = Data.areas.reduce((s, a) => s + a, 0) || 1;
+    if (field.classes.length) {
+      box.append(element('p', {class: 'kind'}, field.classes.map((name, i) =>
+          `${name} ${show(100 * values.reduce((s, v, f) => s + (Math.round(v) === i ? Data.areas[f] : 0), 0) / total, 3)} %`).join(' · ') + ' of the area'));
+      return;
+    }
+    const bins = new Float64Array(40), range = field.high - field.low, order = values.map((_, f) => f).sort((p, q) => values[p] - values[q]);
+    values.forEach((v, f) => { bins[Math.min(39, Math.max(0, Math.floor(40 * (v - field.low) / range)))] += Data.areas[f]; });
+    const top = Math.max(...bins), w = 270, h = 70, drawing = Page.svg('svg', {viewBox: `0 0 ${w} ${h}`, role: 'img', 'aria-label': 'Share of the area over the values'});
+    bins.forEach((b, i) => drawing.append(Page.svg('rect', {x: i * w / 40, width: w / 40 - 0.6, y: h - h * b / top, height: h * b / top,
+        fill: `rgb(${View.colourOfMap(field.map, (i + 0.5) / 40).map(v => Math.round(255 * v)).join()})`})));
+    const at = share => { let sum = 0; for (const f of order) { sum += Data.areas[f]; if (sum >= share * total) return values[f]; } return values[order[order.length - 1]]; };
+    const mean = values.reduce((s, v, f) => s + v * Data.areas[f], 0) / total;
+    box.append(drawing, element('div', {class: 'ends'}, element('span', {}, show(field.low, 3)), element('span', {}, show(field.high, 3))),
+               element('p', {class: 'kind'}, `by area: mean ${show(mean, 3)}, 5 to 95 %: ${show(at(0.05), 3)} to ${show(at(0.95), 3)}, largest ${show(values[order[order.length - 1]], 3)}`));
+  }
+
   function hover(hit) {
     const out = [], field = Data.fields.find(f => f.key === byId('colour-by').value);
     if (hit) {
       if (Data.panelOfFace) out.push(`panel ${Data.panels[Data.panelOfFace[hit.face]].name}`);
       if (field) {
-        const v = field.per_node ? [0, 1, 2].reduce((s, k) => s + field.values[Data.faces[3 * hit.face + k]] / 3, 0) : field.values[hit.face];
+        const v = Data.ofFace(field, hit.face);
         out.push(field.classes.length ? field.classes[Math.round(v)] : `${field.title} ${show(v, 4)} ${field.unit === '-' ? '' : field.unit}`);
       }
     }
@@ -64,7 +86,9 @@
   function setField(key) {
     byId('colour-by').value = key;
     view.setField(key);
-    legend(Data.fields.find(f => f.key === key));
+    const field = Data.fields.find(f => f.key === key);
+    legend(field);
+    distribution(field);
     const names = byId('show-tag');   // the colours of panels mean nothing without their names
     if (names && names.checked !== (key === 'panel')) names.click();
   }
