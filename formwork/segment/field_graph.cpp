@@ -154,26 +154,22 @@ FieldGraph::FieldGraph(const Surface& s, const Topology& t, const SurfaceField& 
     std::vector<int> fill(start_.begin(), start_.end() - 1);
     for (const Raw& r : raw) arcs_[fill[r.from]++] = r.arc;
 
-    find_ports(s, field, leaving);
+    find_ports(s, field, std::move(leaving));
 }
 
-void FieldGraph::find_ports(const Surface& s, const SurfaceField& field, const std::vector<Leaving>& leaving) {
-    for (std::size_t i = 0; i < leaving.size(); ++i) {
+void FieldGraph::find_ports(const Surface& s, const SurfaceField& field, std::vector<Leaving> leaving) {
+    const auto key = [](const Leaving& q) { return std::array{q.vertex, q.face, q.layer}; };
+    std::stable_sort(leaving.begin(), leaving.end(), [&](const Leaving& p, const Leaving& q) { return key(p) < key(q); });
+    for (std::size_t i = 0, end; i < leaving.size(); i = end) {
+        for (end = i; end < leaving.size() && key(leaving[end]) == key(leaving[i]);) ++end;
         const auto [v, f, layer, first] = leaving[i];
-        const bool seen = std::any_of(leaving.begin(), leaving.begin() + static_cast<std::ptrdiff_t>(i), [&, vertex = v, face = f, l = layer](const Leaving& q) {
-            return q.vertex == vertex && q.face == face && q.layer == l;
-        });
-        if (seen) continue;
         const int k = corner_of(s.faces[f], v);   // an arm counts in the face whose sector it lies in
         const Vector3d to = s.x[s.faces[f][(k + 1) % 3]] - s.x[v];
         const double turn = field.theta[f] + layer * quarter_turn - arcsim::face_frame(s, f).angle(to);
         if (turn - 4 * quarter_turn * std::floor(turn / (4 * quarter_turn)) >= corner_angle(s, f, k)) continue;
-        Port port{v, {}};
-        for (const Leaving& q : leaving)
-            if (q.vertex == v && q.face == f && q.layer == layer) port.arcs.push_back(q.arc);
-        ports_.push_back(std::move(port));
+        ports_.push_back({v, {}});
+        for (std::size_t j = i; j < end; ++j) ports_.back().arcs.push_back(leaving[j].arc);
     }
-    std::stable_sort(ports_.begin(), ports_.end(), [](const Port& p, const Port& q) { return p.vertex < q.vertex; });
 }
 
 }  // namespace formwork

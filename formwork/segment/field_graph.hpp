@@ -68,7 +68,7 @@ private:
     void place_samples(const Surface& s, const Topology& t, int per_edge);
     void add_face(const Surface& s, const Topology& t, const SurfaceField& field, const DriftCost& cost, int per_edge,
                   int f, std::vector<Raw>& raw, std::vector<Leaving>& leaving) const;
-    void find_ports(const Surface& s, const SurfaceField& field, const std::vector<Leaving>& leaving);
+    void find_ports(const Surface& s, const SurfaceField& field, std::vector<Leaving> leaving);
 
     std::vector<std::array<int, 3>> vertex_layer_;   // per face, corner: face layer = vertex layer + this
     std::vector<std::array<double, 3>> fan_angle_;   // per face, corner of a boundary vertex: where the face's sector begins

@@ -11,7 +11,9 @@
 namespace formwork {
 namespace {
 
-constexpr double hopeless = 3;   // times the allowed stretch: such an estimate needs no flattening to be believed
+constexpr double hopeless = 2.5;   // times the allowed stretch: such an estimate needs no flattening to be believed
+constexpr double usual_calibration = 0.75;   // measured stretch over estimate, typical of panels of mixed shape
+constexpr int estimate_cells = 400;
 
 }  // namespace
 
@@ -25,16 +27,21 @@ Layout::Layout(const Surface& input, const std::vector<double>& theta, const std
     }
 }
 
-SurfaceField Layout::field_on(const std::vector<int>& faces) const {
+SurfaceField Layout::field_on(const Surface& mesh, const std::vector<int>& source_face) const {
     SurfaceField field;
-    for (int f : faces) {
-        const int source = cut_.source_face()[f];
-        const arcsim::FaceFrame frame = arcsim::face_frame(cut_.surface(), f);
-        field.theta.push_back(frame.angle(arm_[source]));
-        field.data.push_back(data_[source]);
-        field.data.back().theta = frame.angle(principal_[source]);
+    for (int f = 0; f < mesh.n_faces(); ++f) {
+        const arcsim::FaceFrame frame = arcsim::face_frame(mesh, f);
+        field.theta.push_back(frame.angle(arm_[source_face[f]]));
+        field.data.push_back(data_[source_face[f]]);
+        field.data.back().theta = frame.angle(principal_[source_face[f]]);
     }
     return field;
+}
+
+SurfaceField Layout::field_on(const PanelPatch& patch) const {
+    std::vector<int> source;
+    for (int f : patch.face) source.push_back(cut_.source_face()[f]);
+    return field_on(patch.surface, source);
 }
 
 std::vector<int> Layout::faces_of(int panel) const {
@@ -84,45 +91,110 @@ void Layout::add_given(const Curve& curve) {
     for (int p = 0, n = static_cast<int>(panels_.size()); p < n; ++p) relabel(p);
 }
 
-PanelQuality Layout::assess(const PanelPatch& patch) const {
+/// Everything about a panel but its flat pattern; its stretch is the estimate times `calibration`.
+PanelQuality Layout::look_at(const PanelPatch& patch, double calibration) const {
     PanelQuality q;
     q.is_disk = patch.is_disk();
+    q.area = patch.area();
     q.p95 = std::numeric_limits<double>::infinity();
     if (!q.is_disk) return q;
     q.corners = static_cast<int>(corner_nodes(patch).size());
     q.width = patch_width(patch);
-    const double estimate = StretchModel(patch, 400).whole().p95;
-    if (estimate > hopeless * rules_.max_distortion) {
-        q.p95 = estimate;
-        return q;
-    }
+    q.estimate = StretchModel(patch, estimate_cells).whole().p95;
+    q.p95 = calibration * q.estimate;
+    return q;
+}
+
+void Layout::flatten(const PanelPatch& patch, PanelQuality& q) const {
+    if (!q.is_disk || q.is_flattened || q.p95 > hopeless * rules_.max_distortion) return;
+    q.is_flattened = true;
+    if (q.estimate < 1e-3 * rules_.max_distortion) return;
     try {
         q.p95 = flatten_disk(patch.surface, FlattenParams::fast()).stretch.p95;
     } catch (const arcsim::NumericalError&) {   // cannot be laid flat without folds: as bad as it gets
-        q.p95 = std::max(estimate, hopeless * rules_.max_distortion);
+        q.p95 = std::max(q.estimate, hopeless * rules_.max_distortion);
     }
-    return q;
 }
 
 const PanelQuality& Layout::quality(int panel) {
     Panel& p = panels_[panel];
     if (!p.assessed) {
-        p.quality = assess(extract_patch(cut_, faces_of(panel)));
+        const PanelPatch patch = extract_patch(cut_, faces_of(panel));
+        p.quality = look_at(patch, usual_calibration);
+        flatten(patch, p.quality);
         p.assessed = true;
     }
     return p.quality;
 }
 
+bool Layout::is_valid(const PanelQuality& q) const {
+    return q.is_disk && q.p95 <= rules_.max_distortion && q.corners <= rules_.max_corners;
+}
+
+/// How much stretch beyond the bound a panel holds: area times the relative excess, m².
+double Layout::excess(const PanelQuality& q) const {
+    if (!q.is_disk) return 10 * q.area;
+    return q.area * std::max(0., q.p95 / rules_.max_distortion - 1);
+}
+
+double Layout::calibration(const PanelQuality& q) const {
+    return q.is_flattened && q.estimate > 0 ? std::clamp(q.p95 / q.estimate, 0.4, 1.3) : usual_calibration;
+}
+
+std::vector<Layout::Trial> Layout::try_splits(const PanelPatch& patch, const PanelQuality& q, int count) const {
+    std::vector<Trial> trials;
+    SplitRules rules = rules_;
+    rules.calibration = calibration(q);
+    for (const Split& split : best_splits(patch, field_on(patch), rules, count)) {
+        Trial trial;
+        trial.curve = split.curve;
+        trial.length = split.length;
+        trial.is_allowed = true;
+        for (CurvePoint& p : trial.curve) {
+            p.a = patch.node[p.a];
+            if (p.b >= 0) p.b = patch.node[p.b];
+        }
+        if (q.is_disk) {
+            trial.pieces = split_pieces(patch, split.curve);
+            for (const PanelPatch& piece : trial.pieces) {
+                trial.qualities.push_back(look_at(piece, rules.calibration));
+                trial.excess += excess(trial.qualities.back());
+                trial.is_allowed = trial.is_allowed && trial.qualities.back().is_disk &&
+                                   trial.qualities.back().corners <= rules_.max_corners;
+            }
+        }
+        trials.push_back(std::move(trial));
+    }
+    return trials;
+}
+
+void Layout::flatten(Trial& trial) const {
+    trial.excess = 0;
+    for (std::size_t i = 0; i < trial.pieces.size(); ++i) {
+        flatten(trial.pieces[i], trial.qualities[i]);
+        trial.excess += excess(trial.qualities[i]);
+    }
+}
+
 bool Layout::split(int panel, bool anyhow) {
-    const std::vector<int> faces = faces_of(panel);
-    const PanelPatch patch = extract_patch(cut_, faces);
-    const SurfaceField field = field_on(faces);
-    const auto found = anyhow ? plain_split(patch, field, rules_) : best_split(patch, field, rules_);
-    if (!found) return false;
-    Curve curve = found->curve;
-    for (CurvePoint& p : curve) {
-        p.a = patch.node[p.a];
-        if (p.b >= 0) p.b = patch.node[p.b];
+    const PanelPatch patch = extract_patch(cut_, faces_of(panel));
+    Curve curve;
+    if (anyhow) {
+        const auto found = plain_split(patch, field_on(patch), rules_);
+        if (!found) return false;
+        curve = found->curve;
+        for (CurvePoint& p : curve) {
+            p.a = patch.node[p.a];
+            if (p.b >= 0) p.b = patch.node[p.b];
+        }
+    } else {
+        const auto trials = try_splits(patch, quality(panel), 3);
+        if (trials.empty()) return false;
+        const double before = excess(quality(panel));
+        const auto value = [&](const Trial& t) { return (t.is_allowed ? 1 : 0.1) * (before - t.excess); };
+        const auto best = std::max_element(trials.begin(), trials.end(),
+                                           [&](const Trial& a, const Trial& b) { return value(a) < value(b); });
+        curve = best->curve;
     }
     cut_.insert_seam(curve);
     relabel(panel);
@@ -137,8 +209,8 @@ int Layout::worst_panel() {
         const PanelQuality& q = quality(p);
         if (q.is_disk && q.p95 <= rules_.max_distortion) continue;
         if (!q.is_disk) return p;
-        if (q.p95 > most) {
-            most = q.p95;
+        if (excess(q) > most) {
+            most = excess(q);
             worst = p;
         }
     }
@@ -155,25 +227,44 @@ void Layout::refine() {
     }
 }
 
-bool Layout::try_merge(int a, int b, const std::vector<std::pair<int, int>>& edges) {
-    for (const auto& [i, j] : edges) cut_.unmark_seam(i, j);
-    std::vector<int> faces = faces_of(a);
+std::map<std::pair<int, int>, Layout::Border> Layout::borders() const {
+    std::map<std::pair<int, int>, Border> all;
+    const Surface& s = cut_.surface();
+    for (int f = 0; f < s.n_faces(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const int i = s.faces[f][k], j = s.faces[f][(k + 1) % 3];
+            if (i > j || !cut_.is_seam(i, j)) continue;
+            Border& border = all[std::minmax(panel_[f], panel_[cut_.face_left(j, i)])];
+            border.length += (s.x[i] - s.x[j]).norm();
+            border.edges.emplace_back(i, j);
+        }
+    return all;
+}
+
+/// The two panels as one; the border between them stays marked.
+PanelPatch Layout::joined(int a, int b, const Border& border, std::vector<int>& faces) {
+    for (const auto& [i, j] : border.edges) cut_.unmark_seam(i, j);
+    faces = faces_of(a);
     if (a != b) {
         const std::vector<int> more = faces_of(b);
         faces.insert(faces.end(), more.begin(), more.end());
         std::sort(faces.begin(), faces.end());
     }
-    const PanelPatch patch = extract_patch(cut_, faces);
-    bool ok = patch.is_disk() && static_cast<int>(corner_nodes(patch).size()) <= rules_.max_corners;
-    PanelQuality q;
-    if (ok) {
-        q = assess(patch);
-        ok = q.p95 <= std::max(rules_.max_distortion, a == b ? quality(a).p95 : 0.);
-    }
-    if (!ok) {
-        for (const auto& [i, j] : edges) cut_.mark_seam(i, j);
-        return false;
-    }
+    PanelPatch patch = extract_patch(cut_, faces);
+    for (const auto& [i, j] : border.edges) cut_.mark_seam(i, j);
+    return patch;
+}
+
+bool Layout::try_merge(int a, int b, const Border& border) {
+    std::vector<int> faces;
+    const PanelPatch patch = joined(a, b, border, faces);
+    if (!patch.is_disk() || static_cast<int>(corner_nodes(patch).size()) > rules_.max_corners) return false;
+    const double allowed = std::max(rules_.max_distortion, a == b ? quality(a).p95 : 0.);
+    PanelQuality q = look_at(patch, std::min(calibration(quality(a)), calibration(quality(b))));
+    if (q.p95 > 1.4 * allowed) return false;
+    flatten(patch, q);
+    if (q.p95 > allowed) return false;
+    for (const auto& [i, j] : border.edges) cut_.unmark_seam(i, j);
     for (int f : faces) panel_[f] = a;
     if (a != b) panels_[b].alive = false;
     panels_[a] = {true, true, false, q};
@@ -185,27 +276,18 @@ bool Layout::prune() {
     bool any = false;
     for (bool merged = true; merged;) {
         merged = false;
-        std::map<std::pair<int, int>, std::pair<double, std::vector<std::pair<int, int>>>> borders;
-        const Surface& s = cut_.surface();
-        for (int f = 0; f < s.n_faces(); ++f)
-            for (int k = 0; k < 3; ++k) {
-                const int i = s.faces[f][k], j = s.faces[f][(k + 1) % 3];
-                if (i > j || !cut_.is_seam(i, j)) continue;
-                const int g = cut_.face_left(j, i);
-                auto& border = borders[std::minmax(panel_[f], panel_[g])];
-                border.first += (s.x[i] - s.x[j]).norm();
-                border.second.emplace_back(i, j);
-            }
+        const auto all = borders();
         std::vector<std::pair<double, std::pair<int, int>>> order;
-        for (const auto& [pair, border] : borders) order.emplace_back(-border.first, pair);
+        for (const auto& [pair, border] : all) order.emplace_back(-border.length, pair);
         std::sort(order.begin(), order.end());
         for (const auto& [length, pair] : order) {
             if (failed.count(pair)) continue;
-            if (try_merge(pair.first, pair.second, borders[pair].second)) {
+            const auto [a, b] = pair;
+            if (try_merge(a, b, all.at(pair))) {
                 merged = any = true;
-                std::erase_if(failed, [&](const auto& item) {
-                    return item.first.first == pair.first || item.first.second == pair.first ||
-                           item.first.first == pair.second || item.first.second == pair.second;
+                std::erase_if(failed, [a = a, b = b](const auto& item) {
+                    const auto [c, d] = item.first;
+                    return c == a || c == b || d == a || d == b;
                 });
                 break;
             }
@@ -215,10 +297,62 @@ bool Layout::prune() {
     return any;
 }
 
+/// Another seam between two panels, when it leaves less excess, or none and is shorter.
+bool Layout::resplit(int a, int b, const Border& border) {
+    std::vector<int> faces;
+    const PanelPatch patch = joined(a, b, border, faces);
+    if (!patch.is_disk()) return false;
+    const PanelQuality &qa = quality(a), &qb = quality(b);
+    const double scale = std::sqrt(calibration(qa) * calibration(qb));
+    auto trials = try_splits(patch, look_at(patch, scale), 3);
+    const double old_excess = excess(qa) + excess(qb);
+    const double length_weight = 0.05 * std::sqrt(patch.area());   // m² of excess per m of seam
+    const double old_cost = old_excess + length_weight * border.length;
+    const auto cost = [&](const Trial& t) { return t.excess + length_weight * t.length; };
+    std::erase_if(trials, [&](const Trial& t) { return !t.is_allowed || cost(t) > 0.95 * old_cost; });
+    if (trials.empty()) return false;
+    Trial& best = *std::min_element(trials.begin(), trials.end(), [&](const Trial& s, const Trial& t) { return cost(s) < cost(t); });
+    flatten(best);
+    if (cost(best) > 0.97 * old_cost || best.excess > old_excess + 1e-12) return false;
+    for (const auto& [i, j] : border.edges) cut_.unmark_seam(i, j);
+    for (int f : faces) panel_[f] = a;
+    panels_[b].alive = false;
+    cut_.insert_seam(best.curve);
+    relabel(a);
+    return true;
+}
+
+bool Layout::improve() {
+    bool any = false;
+    std::map<std::pair<int, int>, bool> done;
+    for (int changes = 0; changes < 60;) {
+        const auto all = borders();
+        std::vector<std::pair<double, std::pair<int, int>>> order;
+        for (const auto& [pair, border] : all)
+            if (pair.first != pair.second && !done.count(pair))
+                order.emplace_back(-excess(quality(pair.first)) - excess(quality(pair.second)) - 1e-6 * border.length, pair);
+        std::sort(order.begin(), order.end());
+        bool changed = false;
+        for (const auto& [weight, pair] : order) {
+            done[pair] = true;
+            const auto [a, b] = pair;
+            if (!resplit(a, b, all.at(pair))) continue;
+            any = changed = true;
+            ++changes;
+            break;   // borders and panel numbers have changed
+        }
+        if (!changed) break;
+    }
+    return any;
+}
+
 void Layout::search() {
     for (int round = 0; round < 3; ++round) {
         refine();
-        if (!prune() || worst_panel() < 0) break;
+        prune();
+        if (!improve() && round > 0) break;
+        for (Panel& p : panels_) p.stuck = false;
+        prune();
     }
 }
 

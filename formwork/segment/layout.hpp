@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct LayoutLimits {
 /// What is known about one panel.
 struct PanelQuality {
     bool is_disk = false;
+    double area = 0;      // m²
+    double estimate = 0;  // of the stretch, before flattening
+    bool is_flattened = false;   // p95 is measured, not derived from the estimate
     double p95 = 0;       // stretch of the flat pattern that 95 % of the area stays below
     int corners = 0;
     double width = 0;     // m
@@ -36,7 +40,8 @@ public:
 
     const CutMesh& cut() const { return cut_; }
     CutMesh& cut() { return cut_; }
-    SurfaceField field_on(const std::vector<int>& faces) const;
+    /// The field on the faces of a mesh that lies on the input.
+    SurfaceField field_on(const Surface& mesh, const std::vector<int>& source_face) const;
     int n_panels() const;
     /// Bounds that are not met, one line each; panels numbered as label_panels does.
     std::vector<std::string> violations();
@@ -49,13 +54,38 @@ private:
 
     void relabel(int panel);
     std::vector<int> faces_of(int panel) const;
-    PanelQuality assess(const PanelPatch& patch) const;
+    SurfaceField field_on(const PanelPatch& patch) const;
+    PanelQuality look_at(const PanelPatch& patch, double calibration) const;
+    void flatten(const PanelPatch& patch, PanelQuality& q) const;
     const PanelQuality& quality(int panel);
+    double excess(const PanelQuality& q) const;
+    bool is_valid(const PanelQuality& q) const;
+    double calibration(const PanelQuality& q) const;
+
+    struct Trial {
+        Curve curve;   // numbers of the cut mesh
+        double length = 0;
+        std::vector<PanelPatch> pieces;
+        std::vector<PanelQuality> qualities;   // from estimates
+        double excess = 0;         // of the pieces together
+        bool is_allowed = false;   // disks with few corners
+    };
+    std::vector<Trial> try_splits(const PanelPatch& patch, const PanelQuality& q, int count) const;
+    void flatten(Trial& trial) const;
     bool split(int panel, bool anyhow);
     int worst_panel();
     void refine();
+
+    struct Border {
+        double length = 0;
+        std::vector<std::pair<int, int>> edges;
+    };
+    std::map<std::pair<int, int>, Border> borders() const;
+    PanelPatch joined(int a, int b, const Border& border, std::vector<int>& faces);
+    bool try_merge(int a, int b, const Border& border);
     bool prune();
-    bool try_merge(int a, int b, const std::vector<std::pair<int, int>>& edges);
+    bool resplit(int a, int b, const Border& border);
+    bool improve();
 
     const Surface& input_;
     SplitRules rules_;

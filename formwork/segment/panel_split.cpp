@@ -22,6 +22,7 @@ struct Candidate {
     StretchEstimate after;
     double score = 0;   // larger is better
     int seed = -1;
+    bool is_enough = false;
 };
 
 Curve sample_points(const FieldGraph& graph, const Path& path) {
@@ -143,15 +144,27 @@ public:
         if (!is_closed_) before_ = model_.whole();
     }
 
-    std::optional<Split> along_field() {
+    std::vector<Split> along_field(int count) {
         if (is_closed_)
             collect_loops();
         else
             collect_crossings();
         std::stable_sort(found_.begin(), found_.end(), [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
-        for (std::size_t i = 0; i < found_.size() && i < 40; ++i)
-            if (auto split = finish(found_[i])) return split;
-        return {};
+        std::vector<Split> best;
+        std::vector<Vector3d> middles;
+        for (std::size_t i = 0; i < found_.size() && i < 40 && static_cast<int>(best.size()) < count; ++i) {
+            const auto& samples = found_[i].path.samples;
+            const Vector3d middle = position(patch_.surface, graph_.point(samples[samples.size() / 2]));
+            const bool is_new = std::none_of(middles.begin(), middles.end(), [&](const Vector3d& m) {
+                return (m - middle).norm() < 0.25 * rules_.min_width;
+            });
+            if (!is_new) continue;
+            if (auto split = finish(found_[i])) {
+                best.push_back(std::move(*split));
+                middles.push_back(middle);
+            }
+        }
+        return best;
     }
 
     std::optional<Split> anyhow() {
@@ -236,7 +249,7 @@ private:
 
     void try_path(const std::optional<Path>& path, int seed) {
         if (!path || path->samples.size() < 3) return;
-        Candidate c{*path, model_.with_cut(sample_points(graph_, *path)), 0, seed};
+        Candidate c{*path, model_.with_cut(sample_points(graph_, *path)), 0, seed, false};
         const double flat = std::pow(0.4 * rules_.max_distortion, 2);   // stretch that nobody sees
         if (is_closed_) {
             c.score = -path->cost * std::sqrt(c.after.energy / c.after.area + flat);
@@ -247,7 +260,9 @@ private:
             if (is_disk_) {
                 if (!divides || c.after.smallest_piece < 0.5 * std::pow(rules_.min_width, 2)) return;
                 const int corners = most_corners_after(patch_, places_, a, b);
-                c.score = std::max(1e-30, before_.energy - c.after.energy) / path->cost;
+                c.score = std::max(1e-30, before_.energy - c.after.energy);
+                c.is_enough = c.after.p95 * rules_.calibration < rules_.max_distortion;
+                if (c.is_enough) c.score = 1e6 / path->cost;
                 if (corners > rules_.max_corners) c.score *= 1e-3 / corners;
             } else {
                 c.score = -path->cost * std::sqrt(c.after.energy / c.after.area + flat);
@@ -312,9 +327,7 @@ private:
         const Pieces pieces = cut_pieces(patch_, curve);
         if (!anything && is_disk_ && (pieces.count != 2 || pieces.least_width < rules_.min_width)) return {};
         if (!is_disk_ && !is_closed_ && pieces.count != 1) return {};   // must open the panel, not divide it
-        Split split{curve, curve_length(patch_.surface, curve), c.path.cost, 0};
-        split.gain = is_closed_ ? 0 : (before_.energy - c.after.energy) / c.path.cost;
-        return split;
+        return Split{curve, curve_length(patch_.surface, curve), c.path.cost, c.is_enough};
     }
 
     const PanelPatch& patch_;
@@ -330,12 +343,22 @@ private:
 
 }  // namespace
 
-std::optional<Split> best_split(const PanelPatch& patch, const SurfaceField& field, const SplitRules& rules) {
-    return Search(patch, field, rules).along_field();
+std::vector<Split> best_splits(const PanelPatch& patch, const SurfaceField& field, const SplitRules& rules, int count) {
+    return Search(patch, field, rules).along_field(count);
 }
 
 std::optional<Split> plain_split(const PanelPatch& patch, const SurfaceField& field, const SplitRules& rules) {
     return Search(patch, field, rules).anyhow();
+}
+
+std::vector<PanelPatch> split_pieces(const PanelPatch& patch, const Curve& curve) {
+    CutMesh cut(patch.surface);
+    cut.insert_seam(curve);
+    int n = 0;
+    const std::vector<int> panel = label_panels(cut, n);
+    std::vector<PanelPatch> pieces;
+    for (const auto& faces : panel_faces(panel, n)) pieces.push_back(extract_patch(cut, faces));
+    return pieces;
 }
 
 }  // namespace formwork

@@ -15,6 +15,7 @@ struct SplitRules {
     double max_distortion = 0.05;   // of the flat pattern; sets what counts as flat enough
     int max_corners = 6;
     int trials = 24;                // seeds of candidate curves per panel
+    double calibration = 1;         // stretch of the panel laid flat over its estimate: corrects the pieces' estimates
 };
 
 /// A curve that divides a panel, or opens it when it is no disk.
@@ -22,15 +23,19 @@ struct Split {
     Curve curve;            // in the patch's numbering; smoothed and snapped, ready to be inserted
     double length = 0;      // m
     double cost = 0;        // by (13)
-    double gain = 0;        // fall of the stretch energy, m², per metre of cost
+    bool is_enough = false; // both pieces are expected to lie flat within max_distortion
 };
 
-/// The best field-coherent curve that cuts the panel from border to border (a closed curve when there is no
-/// border): the one that lowers the estimated stretch energy most per unit of cost (13), among those whose
-/// pieces are wide enough and have few corners. A panel with several borders is first cut from one border to
-/// another, one with handles along a curve that does not divide it.
-/// Nothing when no curve along the field qualifies.
-std::optional<Split> best_split(const PanelPatch& patch, const SurfaceField& field, const SplitRules& rules);
+/// Field-coherent curves that cut the panel from border to border (closed curves when there is no border), best
+/// first: the cheapest by (13) of those that are expected to leave two panels flat enough; else the one that
+/// lowers the estimated stretch energy most. Pieces must be wide enough and have few corners.
+/// A panel with several borders is first cut from one border to another, one with handles along a curve that
+/// does not divide it.
+/// @returns at most `count` curves that differ in where they run; none when no curve along the field qualifies
+std::vector<Split> best_splits(const PanelPatch& patch, const SurfaceField& field, const SplitRules& rules, int count);
+
+/// The pieces that a curve makes of a panel, each with its own topology; junctions are not marked.
+std::vector<PanelPatch> split_pieces(const PanelPatch& patch, const Curve& curve);
 
 /// The shortest cut that brings a panel nearer to a disk whatever the field says: from border to border, along
 /// a loop that does not divide, or, on a closed surface, between two far points (a slit).

@@ -5,6 +5,7 @@
 
 #include "arcsim/base/error.hpp"
 #include "formwork/segment/layout.hpp"
+#include "formwork/segment/mesh_repair.hpp"
 #include "formwork/segment/seam_chains.hpp"
 
 namespace formwork {
@@ -34,6 +35,28 @@ void check_input(const Surface& s, const Topology& t, const std::vector<Directio
                              " is not a number. Mend the field, or give the face the weight 0.");
 }
 
+/// The layout's cut mesh, mended, with everything that the next stages ask for.
+Segmentation finish(const Surface& s, const Topology& topology, const CrossField& field, Layout& layout) {
+    Segmentation r;
+    r.singularities = find_singularities(s, topology, field);
+    std::vector<int> singular;
+    for (const Singularity& q : r.singularities) singular.push_back(q.node);   // input nodes keep their numbers
+    RepairedMesh mesh = repair_mesh(layout.cut(), s, topology, singular);
+    for (Singularity& q : r.singularities) q.node = mesh.node[q.node];
+    r.mesh = std::move(mesh.surface);
+    r.source = std::move(mesh.source);
+    r.source_face = std::move(mesh.source_face);
+    CutMesh cut(r.mesh);
+    for (const auto& [a, b] : mesh.seams) cut.mark_seam(a, b);
+    r.panel = label_panels(cut, r.n_panels);
+    r.seams = collect_seams(cut, r.panel);
+    SurfaceField on_cut = layout.field_on(r.mesh, r.source_face);
+    r.field_theta = std::move(on_cut.theta);
+    r.direction = std::move(on_cut.data);
+    r.violations = layout.violations();
+    return r;
+}
+
 }  // namespace
 
 Segmentation segment(const Surface& s, const std::vector<DirectionData>& data, const SegmentParams& params) {
@@ -47,21 +70,7 @@ Segmentation segment(const Surface& s, const std::vector<DirectionData>& data, c
     Layout layout(s, field.theta, data, rules, {params.max_panels});
     layout.search();
 
-    Segmentation result;
-    const CutMesh& cut = layout.cut();
-    result.mesh = cut.surface();
-    result.source = cut.source();
-    result.source_face = cut.source_face();
-    result.panel = label_panels(cut, result.n_panels);
-    result.seams = collect_seams(cut, result.panel);
-    std::vector<int> all(result.mesh.faces.size());
-    for (std::size_t f = 0; f < all.size(); ++f) all[f] = static_cast<int>(f);
-    SurfaceField on_cut = layout.field_on(all);
-    result.field_theta = std::move(on_cut.theta);
-    result.direction = std::move(on_cut.data);
-    result.singularities = find_singularities(s, topology, field);   // input nodes keep their numbers
-    for (const std::string& v : layout.violations()) result.violations.push_back(v);
-    return result;
+    return finish(s, topology, field, layout);
 }
 
 }  // namespace formwork
