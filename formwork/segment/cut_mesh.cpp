@@ -18,16 +18,29 @@ std::array<double, 3> barycentric_coordinates(const Surface& s, int f, const Vec
 }
 
 CutMesh::CutMesh(const Surface& input) : input_(&input), surface_(input), source_(input.n_nodes()) {
-    left_.reserve(4 * input.faces.size());
     source_face_.resize(input.faces.size());
     split_from_.assign(input.faces.size(), -1);
     for (int f = 0; f < input.n_faces(); ++f) {
         source_face_[f] = f;
         const arcsim::Triangle& t = input.faces[f];
         for (int k = 0; k < 3; ++k) {
-            left_[directed(t[k], t[(k + 1) % 3])] = f;
             source_[t[k]] = {f, {k == 0 ? 1. : 0., k == 1 ? 1. : 0., k == 2 ? 1. : 0.}};
         }
+    }
+    number_edges();
+}
+
+CutMesh::CutMesh(const Surface& input, Surface cut, std::vector<SurfacePoint> source, std::vector<int> source_face)
+    : input_(&input), surface_(std::move(cut)), source_(std::move(source)), source_face_(std::move(source_face)),
+      split_from_(surface_.faces.size(), -1) {
+    number_edges();
+}
+
+void CutMesh::number_edges() {
+    left_.reserve(4 * surface_.faces.size());
+    for (int f = 0; f < surface_.n_faces(); ++f) {
+        const arcsim::Triangle& t = surface_.faces[f];
+        for (int k = 0; k < 3; ++k) left_[directed(t[k], t[(k + 1) % 3])] = f;
     }
 }
 
@@ -71,9 +84,10 @@ int CutMesh::split_edge(int a, int b, double t) {
     if (f >= 0) split_face(f, a, b, m);
     if (g >= 0) split_face(g, b, a, m);
     if (is_seam(a, b)) {
+        const bool given = is_given(a, b);
         unmark_seam(a, b);
-        mark_seam(a, m);
-        mark_seam(m, b);
+        mark_seam(a, m, given);
+        mark_seam(m, b, given);
     }
     return m;
 }
@@ -123,11 +137,11 @@ std::vector<int> CutMesh::insert(const Curve& curve) {
     return nodes;
 }
 
-std::vector<int> CutMesh::insert_seam(const Curve& curve) {
+std::vector<int> CutMesh::insert_seam(const Curve& curve, bool given) {
     const std::vector<int> nodes = insert(curve);
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
         assert(face_left(nodes[i], nodes[i + 1]) >= 0 || face_left(nodes[i + 1], nodes[i]) >= 0);
-        if (!is_rim(nodes[i], nodes[i + 1])) mark_seam(nodes[i], nodes[i + 1]);
+        if (!is_rim(nodes[i], nodes[i + 1])) mark_seam(nodes[i], nodes[i + 1], given);
     }
     return nodes;
 }

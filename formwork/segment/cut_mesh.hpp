@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "formwork/segment/segmentation.hpp"
@@ -29,6 +28,8 @@ inline Vector3d position(const Surface& s, const CurvePoint& p) {
 class CutMesh {
 public:
     explicit CutMesh(const Surface& input);
+    /// A mesh that is cut already; its nodes and faces lie on the input as the sources say.
+    CutMesh(const Surface& input, Surface cut, std::vector<SurfacePoint> source, std::vector<int> source_face);
 
     const Surface& surface() const { return surface_; }
     const std::vector<SurfacePoint>& source() const { return source_; }
@@ -42,13 +43,18 @@ public:
     bool is_rim(int a, int b) const { return (face_left(a, b) < 0) != (face_left(b, a) < 0); }
     bool is_seam(int a, int b) const { return seams_.count(undirected(a, b)) > 0; }
     bool is_border(int a, int b) const { return is_seam(a, b) || is_rim(a, b); }
-    void mark_seam(int a, int b) { seams_.insert(undirected(a, b)); }
+    /// A seam that was asked for: the layout never removes it.
+    bool is_given(int a, int b) const {
+        const auto it = seams_.find(undirected(a, b));
+        return it != seams_.end() && it->second;
+    }
+    void mark_seam(int a, int b, bool given = false) { seams_[undirected(a, b)] = given; }
     void unmark_seam(int a, int b) { seams_.erase(undirected(a, b)); }
 
     /// Splits the faces along the curve and returns its nodes. The pieces are not marked.
     std::vector<int> insert(const Curve& curve);
     /// insert(), and every step becomes a seam.
-    std::vector<int> insert_seam(const Curve& curve);
+    std::vector<int> insert_seam(const Curve& curve, bool given = false);
 
     /// Puts a node inside the edge a-b, at a + t (b - a); the faces at the edge become two each.
     int split_edge(int a, int b, double t);
@@ -63,6 +69,7 @@ private:
         return static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32 | static_cast<std::uint32_t>(b);
     }
     static std::uint64_t undirected(int a, int b) { return a < b ? directed(a, b) : directed(b, a); }
+    void number_edges();
     void set_face(int f, const arcsim::Triangle& t);
     void split_face(int f, int a, int b, int m);
     SurfacePoint locate(int face, const Vector3d& x) const;
@@ -72,7 +79,7 @@ private:
     std::vector<SurfacePoint> source_;
     std::vector<int> source_face_, split_from_;
     std::unordered_map<std::uint64_t, int> left_;   // directed edge -> face
-    std::unordered_set<std::uint64_t> seams_;
+    std::unordered_map<std::uint64_t, bool> seams_;   // edge -> was it asked for
 };
 
 /// Barycentric coordinates of the point of face f's plane nearest to x; they sum to 1 and may be negative.

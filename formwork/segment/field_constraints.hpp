@@ -24,7 +24,7 @@ void visit(Archive& a, ConstraintParams& p) {
     a.optional("align_rims", p.align_rims, "Whether the field must run along or across the rims.");
     a.optional("crease_angle_deg", p.crease_angle_deg, "degrees", arcsim::between(0, 180),
                "Edges that bend by more than this are followed by the field; 0: none.");
-    a.optional("strokes", p.strokes, "OBJ file of polylines (v and l lines) that the field must follow.");
+    a.optional("strokes", p.strokes, "OBJ file of polylines (v and l lines) that the field must follow and that become seams.");
 }
 
 /// Rims, creases and strokes as directions of faces. A face that is asked for two directions more than 20

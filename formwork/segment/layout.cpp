@@ -19,7 +19,14 @@ constexpr int estimate_cells = 400;
 
 Layout::Layout(const Surface& input, const std::vector<double>& theta, const std::vector<DirectionData>& data,
                const SplitRules& rules, const LayoutLimits& limits)
-    : input_(input), rules_(rules), limits_(limits), cut_(input), data_(data), panel_(input.faces.size(), 0), panels_(1) {
+    : Layout(input, theta, data, rules, limits, CutMesh(input)) {}
+
+Layout::Layout(const Surface& input, const std::vector<double>& theta, const std::vector<DirectionData>& data,
+               const SplitRules& rules, const LayoutLimits& limits, CutMesh cut)
+    : input_(input), rules_(rules), limits_(limits), cut_(std::move(cut)), data_(data) {
+    int n = 0;
+    panel_ = label_panels(cut_, n);
+    panels_.resize(n);
     for (int f = 0; f < input.n_faces(); ++f) {
         const arcsim::FaceFrame frame = arcsim::face_frame(input, f);
         arm_.push_back(frame.direction(theta[f]));
@@ -52,7 +59,7 @@ std::vector<int> Layout::faces_of(int panel) const {
 }
 
 int Layout::n_panels() const {
-    return static_cast<int>(std::count_if(panels_.begin(), panels_.end(), [](const Panel& p) { return p.alive; }));
+    return static_cast<int>(std::count_if(panels_.begin(), panels_.end(), [](const Panel& p) { return p.alive && !p.frozen; }));
 }
 
 void Layout::relabel(int panel) {
@@ -86,9 +93,31 @@ void Layout::relabel(int panel) {
     }
 }
 
-void Layout::add_given(const Curve& curve) {
-    cut_.insert_seam(curve);
+void Layout::add_curve(const Curve& curve, bool given) {
+    cut_.insert_seam(curve, given);
     for (int p = 0, n = static_cast<int>(panels_.size()); p < n; ++p) relabel(p);
+}
+
+void Layout::keep_one_side(const Vector3d& point, const Vector3d& normal) {
+    std::vector<double> side(panels_.size(), 0);
+    for (int f = 0; f < cut_.surface().n_faces(); ++f)
+        side[panel_[f]] += arcsim::face_area(cut_.surface(), f) * normal.dot(arcsim::face_centroid(cut_.surface(), f) - point);
+    for (std::size_t p = 0; p < panels_.size(); ++p) panels_[p].frozen = side[p] < 0;
+}
+
+std::vector<char> Layout::kept_faces() const {
+    std::vector<char> kept;
+    for (int p : panel_) kept.push_back(!panels_[p].frozen);
+    return kept;
+}
+
+void Layout::merge_images(const std::vector<int>& face_image) {
+    std::vector<int> image(panels_.size(), -1);
+    for (std::size_t f = 0; f < face_image.size(); ++f) image[panel_[f]] = panel_[face_image[f]];
+    const auto all = borders();
+    for (const auto& [pair, border] : all)
+        if (pair.first != pair.second && image[pair.first] == pair.second && !border.is_given)
+            try_merge(pair.first, pair.second, border);
 }
 
 /// Everything about a panel but its flat pattern; its stretch is the estimate times `calibration`.
@@ -205,7 +234,7 @@ int Layout::worst_panel() {
     int worst = -1;
     double most = 0;
     for (int p = 0; p < static_cast<int>(panels_.size()); ++p) {
-        if (!panels_[p].alive || panels_[p].stuck) continue;
+        if (!panels_[p].alive || panels_[p].stuck || panels_[p].frozen) continue;
         const PanelQuality& q = quality(p);
         if (q.is_disk && q.p95 <= rules_.max_distortion) continue;
         if (!q.is_disk) return p;
@@ -234,7 +263,10 @@ std::map<std::pair<int, int>, Layout::Border> Layout::borders() const {
         for (int k = 0; k < 3; ++k) {
             const int i = s.faces[f][k], j = s.faces[f][(k + 1) % 3];
             if (i > j || !cut_.is_seam(i, j)) continue;
-            Border& border = all[std::minmax(panel_[f], panel_[cut_.face_left(j, i)])];
+            const int p = panel_[f], q = panel_[cut_.face_left(j, i)];
+            if (panels_[p].frozen || panels_[q].frozen) continue;
+            Border& border = all[std::minmax(p, q)];
+            border.is_given = border.is_given || cut_.is_given(i, j);
             border.length += (s.x[i] - s.x[j]).norm();
             border.edges.emplace_back(i, j);
         }
@@ -251,7 +283,7 @@ PanelPatch Layout::joined(int a, int b, const Border& border, std::vector<int>& 
         std::sort(faces.begin(), faces.end());
     }
     PanelPatch patch = extract_patch(cut_, faces);
-    for (const auto& [i, j] : border.edges) cut_.mark_seam(i, j);
+    for (const auto& [i, j] : border.edges) cut_.mark_seam(i, j, border.is_given);
     return patch;
 }
 
@@ -267,7 +299,7 @@ bool Layout::try_merge(int a, int b, const Border& border) {
     for (const auto& [i, j] : border.edges) cut_.unmark_seam(i, j);
     for (int f : faces) panel_[f] = a;
     if (a != b) panels_[b].alive = false;
-    panels_[a] = {true, true, false, q};
+    panels_[a] = {.assessed = true, .quality = q};
     return true;
 }
 
@@ -281,7 +313,7 @@ bool Layout::prune() {
         for (const auto& [pair, border] : all) order.emplace_back(-border.length, pair);
         std::sort(order.begin(), order.end());
         for (const auto& [length, pair] : order) {
-            if (failed.count(pair)) continue;
+            if (failed.count(pair) || all.at(pair).is_given) continue;
             const auto [a, b] = pair;
             if (try_merge(a, b, all.at(pair))) {
                 merged = any = true;
@@ -329,7 +361,7 @@ bool Layout::improve() {
         const auto all = borders();
         std::vector<std::pair<double, std::pair<int, int>>> order;
         for (const auto& [pair, border] : all)
-            if (pair.first != pair.second && !done.count(pair))
+            if (pair.first != pair.second && !border.is_given && !done.count(pair))
                 order.emplace_back(-excess(quality(pair.first)) - excess(quality(pair.second)) - 1e-6 * border.length, pair);
         std::sort(order.begin(), order.end());
         bool changed = false;

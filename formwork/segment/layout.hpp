@@ -33,10 +33,20 @@ public:
     Layout(const Surface& input, const std::vector<double>& theta, const std::vector<DirectionData>& data,
            const SplitRules& rules, const LayoutLimits& limits);
 
-    /// Marks the curve (of the whole mesh's numbering) as a seam before the search: strokes, creases, mirror planes.
-    void add_given(const Curve& curve);
+    /// Goes on with a mesh that is cut already.
+    Layout(const Surface& input, const std::vector<double>& theta, const std::vector<DirectionData>& data,
+           const SplitRules& rules, const LayoutLimits& limits, CutMesh cut);
+
+    /// Makes the curve (of the cut mesh's numbering) a seam before the search; one that is `given` stays.
+    void add_curve(const Curve& curve, bool given);
     /// Open, refine, prune.
     void search();
+    /// Leaves out of the search every panel that lies on the far side of a plane.
+    void keep_one_side(const Vector3d& point, const Vector3d& normal);
+    /// Per face: 1 where the search went on.
+    std::vector<char> kept_faces() const;
+    /// Removes seams between panels and their mirror images where that keeps the bounds.
+    void merge_images(const std::vector<int>& face_image);
 
     const CutMesh& cut() const { return cut_; }
     CutMesh& cut() { return cut_; }
@@ -48,7 +58,7 @@ public:
 
 private:
     struct Panel {
-        bool alive = true, assessed = false, stuck = false;
+        bool alive = true, assessed = false, stuck = false, frozen = false;
         PanelQuality quality;
     };
 
@@ -78,6 +88,7 @@ private:
 
     struct Border {
         double length = 0;
+        bool is_given = false;
         std::vector<std::pair<int, int>> edges;
     };
     std::map<std::pair<int, int>, Border> borders() const;

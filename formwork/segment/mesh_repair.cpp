@@ -49,6 +49,11 @@ private:
     bool is_alive(int f) const { return s_.faces[f][0] >= 0; }
     bool is_seam(int a, int b) const { return seams_.count(std::minmax(a, b)) > 0; }
 
+    bool is_input_node(int v) const {
+        const auto& b = source_[v].barycentric;
+        return *std::max_element(b.begin(), b.end()) > 1 - 1e-12;
+    }
+
     double least_angle(const arcsim::Triangle& t) const {
         double least = std::numbers::pi;
         for (int k = 0; k < 3; ++k) {
@@ -157,7 +162,7 @@ private:
 
     /// Draws a into b.
     bool collapse(int a, int b) {
-        if (fixed_[a] || a < input_.n_nodes()) return false;
+        if (fixed_[a] || is_input_node(a)) return false;
         const bool along_seam = is_seam(a, b);
         if (!borders_[a].empty() && !along_seam) return false;
         const auto both = faces_at(a, b);

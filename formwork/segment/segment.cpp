@@ -1,12 +1,17 @@
 #include "formwork/segment/segment.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 
 #include "arcsim/base/error.hpp"
 #include "formwork/segment/layout.hpp"
 #include "formwork/segment/mesh_repair.hpp"
+#include "formwork/segment/mirror_layout.hpp"
 #include "formwork/segment/seam_chains.hpp"
+#include "formwork/segment/strokes.hpp"
+#include "formwork/segment/surface_curve.hpp"
 
 namespace formwork {
 namespace {
@@ -35,13 +40,39 @@ void check_input(const Surface& s, const Topology& t, const std::vector<Directio
                              " is not a number. Mend the field, or give the face the weight 0.");
 }
 
+struct Job {
+    const Surface& s;
+    const Topology& topology;
+    const std::vector<DirectionData>& data;
+    const SegmentParams& params;
+    const CrossField& field;
+    std::vector<Stroke> strokes;
+    SplitRules rules;
+
+    Layout layout(int max_panels) const { return {s, field.theta, data, rules, {max_panels}}; }
+};
+
 /// The layout's cut mesh, mended, with everything that the next stages ask for.
-Segmentation finish(const Surface& s, const Topology& topology, const CrossField& field, Layout& layout) {
+Segmentation finish(const Job& job, Layout& layout) {
     Segmentation r;
-    r.singularities = find_singularities(s, topology, field);
+    r.singularities = find_singularities(job.s, job.topology, job.field);
+    const CutMesh& before = layout.cut();
     std::vector<int> singular;
-    for (const Singularity& q : r.singularities) singular.push_back(q.node);   // input nodes keep their numbers
-    RepairedMesh mesh = repair_mesh(layout.cut(), s, topology, singular);
+    for (Singularity& q : r.singularities) {   // a mirrored half has nodes of its own: the nearest takes the singularity
+        const Vector3d x = job.s.x[q.node];
+        if (q.node >= before.surface().n_nodes() || before.surface().x[q.node] != x) {
+            double least = std::numeric_limits<double>::infinity();
+            for (int v = 0; v < before.surface().n_nodes(); ++v) {
+                const double d = (before.surface().x[v] - x).squaredNorm();
+                if (d < least) {
+                    least = d;
+                    q.node = v;
+                }
+            }
+        }
+        singular.push_back(q.node);
+    }
+    RepairedMesh mesh = repair_mesh(before, job.s, job.topology, singular);
     for (Singularity& q : r.singularities) q.node = mesh.node[q.node];
     r.mesh = std::move(mesh.surface);
     r.source = std::move(mesh.source);
@@ -57,20 +88,59 @@ Segmentation finish(const Surface& s, const Topology& topology, const CrossField
     return r;
 }
 
+Segmentation free_layout(const Job& job) {
+    Layout layout = job.layout(job.params.max_panels);
+    for (std::size_t i = 0; i < job.strokes.size(); ++i)
+        layout.add_curve(stroke_curve(layout, job.strokes[i], static_cast<int>(i)), true);
+    layout.search();
+    return finish(job, layout);
+}
+
+/// One half's layout and its mirror image; nothing when the halves do not fit.
+std::optional<Segmentation> mirrored_layout(const Job& job, const MirrorPlane& plane) {
+    Layout half = job.layout(std::max(1, job.params.max_panels / 2));
+    for (Curve& curve : plane_curves(job.s, job.topology, plane.point, plane.normal)) {
+        snap_curve(job.topology, curve, 0.22);
+        if (curve.size() < 3) return {};
+        half.add_curve(curve, false);
+    }
+    half.keep_one_side(plane.point, plane.normal);
+    half.search();
+    MirroredMesh whole = mirror_half(half.cut(), half.kept_faces(), job.s, job.topology, plane);
+    if (!whole.is_sound) return {};
+    CutMesh cut(job.s, std::move(whole.surface), std::move(whole.source), std::move(whole.source_face));
+    for (const auto& [a, b] : whole.seams) cut.mark_seam(a, b);
+    Layout layout(job.s, job.field.theta, job.data, job.rules, {job.params.max_panels}, std::move(cut));
+    layout.merge_images(whole.face_image);
+    return finish(job, layout);
+}
+
 }  // namespace
 
 Segmentation segment(const Surface& s, const std::vector<DirectionData>& data, const SegmentParams& params) {
     const Topology topology = arcsim::build_topology(s, "segment");
     check_input(s, topology, data);
-    const CrossField field = smooth_cross_field(s, topology, data, params.field);
-    SplitRules rules;
-    rules.drift = {params.drift_penalty, params.max_angle_deg * std::numbers::pi / 180};
-    rules.min_width = params.min_width;
-    rules.max_distortion = params.max_distortion;
-    Layout layout(s, field.theta, data, rules, {params.max_panels});
-    layout.search();
-
-    return finish(s, topology, field, layout);
+    std::vector<Stroke> strokes;
+    if (!params.constraints.strokes.path.empty()) strokes = read_strokes(params.constraints.strokes.path.string());
+    FieldParams wanted = params.field;
+    const auto hard = hard_directions(s, topology, params.constraints, strokes);
+    wanted.hard.insert(wanted.hard.end(), hard.begin(), hard.end());
+    const CrossField field = smooth_cross_field(s, topology, data, wanted);
+    Job job{s, topology, data, params, field, strokes, {}};
+    job.rules.drift = {params.drift_penalty, params.max_angle_deg * std::numbers::pi / 180};
+    job.rules.min_width = params.min_width;
+    job.rules.max_distortion = params.max_distortion;
+    std::optional<Segmentation> mirrored;
+    if (params.symmetry == Symmetry::detect && strokes.empty() && params.max_panels > 1) {
+        const auto planes = find_mirror_planes(s, topology);
+        if (!planes.empty() && planes[0].deviation < 0.25 * arcsim::mean_edge_length(s))
+            mirrored = mirrored_layout(job, planes[0]);
+        if (mirrored && mirrored->violations.empty() && mirrored->n_panels > 1) return *mirrored;
+    }
+    Segmentation free = free_layout(job);
+    if (mirrored && mirrored->violations.size() <= free.violations.size() && mirrored->n_panels <= 2 * free.n_panels)
+        return *mirrored;
+    return free;
 }
 
 }  // namespace formwork

@@ -1,12 +1,22 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include "arcsim/base/archive.hpp"
+#include "formwork/segment/field_constraints.hpp"
 #include "formwork/segment/segmentation.hpp"
 
 namespace formwork {
+
+/// Whether the layout keeps a mirror plane of the surface.
+enum class Symmetry { detect, off };
+
+inline constexpr std::array symmetry_names{
+    arcsim::EnumName{Symmetry::detect, "detect", "a mirror plane of the surface becomes a seam, and one half's layout is mirrored; "
+                                                 "given up when that breaks bounds which a free layout keeps"},
+    arcsim::EnumName{Symmetry::off, "off", "free layout"}};
 
 /// Keys of the scene's `segment` block that the layout reads; the field's are FieldParams.
 struct SegmentParams {
@@ -16,6 +26,8 @@ struct SegmentParams {
     int max_panels = 24;
     double max_distortion = 0.05;
     double min_width = 0.03;       // m
+    Symmetry symmetry = Symmetry::detect;
+    ConstraintParams constraints;  // strokes are seams too, and never removed
     int threads = 0;
 };
 
@@ -31,6 +43,8 @@ void visit(Archive& a, SegmentParams& p) {
                "Stretch |sigma - 1| between flat pattern and surface that 95 % of every panel's area stays below.");
     a.optional("min_width", p.min_width, "m", arcsim::non_negative,
                "Diameter of the largest disk that every panel must hold.");
+    a.choice("symmetry", p.symmetry, symmetry_names, "What to do with mirror planes of the surface.");
+    visit(a, p.constraints);
 }
 
 /// Cuts the surface into panels that can be laid flat and sewn: the cross field of (12), curves along it by

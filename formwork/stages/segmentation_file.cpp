@@ -1,3 +1,4 @@
+#include "formwork/segment/layout_json.hpp"
 #include "formwork/stages/segmentation_file.hpp"
 
 #include "arcsim/base/error.hpp"
@@ -57,6 +58,7 @@ void write_segmentation(const fs::path& folder, const Segmentation& s) {
     }
     write_file_atomically(folder / "segments.obj", obj_with_groups(s));
     write_file_atomically(folder / "labels.csv", labels.text());
+    write_file_atomically(folder / "layout.json", arcsim::to_text(layout_json(s)) + "\n");
     write_file_atomically(folder / "field.csv", field.text());
     write_file_atomically(folder / "singularities.csv", singular.text());
     write_file_atomically(folder / "seams.csv", seams.text());

@@ -1,9 +1,12 @@
 #include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <numbers>
 #include <set>
 
 #include "arcsim/base/error.hpp"
+#include "formwork/segment/layout_json.hpp"
 #include "formwork/segment/panel_patch.hpp"
 #include "tests/formwork/layout_meshes.hpp"
 
@@ -167,4 +170,60 @@ TEST_CASE("bad input to the segmentation is named") {
     s.x.pop_back();
     s.faces.push_back(s.faces.front());
     CHECK_THROWS_AS(segment(s, along(s, {0, 0, 1}, 1), {}), arcsim::InputError);
+}
+
+TEST_CASE("a mirror plane of the surface becomes a mirror plane of the layout") {
+    Surface s = icosphere(4, 0.5);
+    for (Vector3d& x : s.x) x = Vector3d(0.5 * x.x(), 0.8 * x.y() + 0.3 * x.x() * x.x(), x.z() + 0.5 * x.y() * x.y());   // x -> -x only
+    const Segmentation r = segment(s, along(s, {0, 0, 1}, 0.3), {});
+    check_promises(s, r);
+    REQUIRE(r.violations.empty());
+    // Each layout node has its image among the layout nodes.
+    std::vector<Vector3d> ends;
+    for (const Seam& seam : r.seams)
+        if (!seam.is_loop())
+            for (int v : {seam.nodes.front(), seam.nodes.back()}) ends.push_back(r.mesh.x[v]);
+    const double reach = 0.6 * arcsim::mean_edge_length(s);
+    for (const Vector3d& x : ends) {
+        double least = 1;
+        for (const Vector3d& y : ends) least = std::min(least, (Vector3d(-x.x(), x.y(), x.z()) - y).norm());
+        CHECK(least < reach);
+    }
+}
+
+TEST_CASE("strokes become seams and stay") {
+    const Surface s = tube(48, 24, 0.1, 0.3);
+    const auto file = std::filesystem::temp_directory_path() / "formwork_test_stroke.obj";
+    std::ofstream(file) << "v 0.1 0 0\nv 0.1 0 0.15\nv 0.1 0 0.3\nl 1 2 3\n";
+    SegmentParams p;
+    p.constraints.strokes.path = file;
+    const Segmentation r = segment(s, along(s, {0, 0, 1}, 1), p);
+    std::filesystem::remove(file);
+    check_promises(s, r);
+    double along_stroke = 0;
+    for (const Seam& seam : r.seams)
+        for (std::size_t i = 0; i + 1 < seam.nodes.size(); ++i) {
+            const Vector3d &a = r.mesh.x[seam.nodes[i]], &b = r.mesh.x[seam.nodes[i + 1]];
+            if (!seam.is_rim() && std::hypot(a.x() - 0.1, a.y()) < 0.012 && std::hypot(b.x() - 0.1, b.y()) < 0.012)
+                along_stroke += (b - a).norm();
+        }
+    CHECK(along_stroke > 0.29);
+}
+
+TEST_CASE("the layout's arcs bound its panels") {
+    const Surface s = open_sphere(3, 0.4, 0.3);
+    const Segmentation r = segment(s, along(s, {1, 0, 0}, 0.3), {});
+    const arcsim::JsonValue layout = layout_json(r);
+    CHECK(layout.find("panels")->items.size() == static_cast<std::size_t>(r.n_panels));
+    CHECK(layout.find("arcs")->items.size() == r.seams.size());
+    std::size_t sides = 0;
+    for (const Seam& seam : r.seams) sides += seam.is_rim() ? 1 : 2;
+    std::size_t steps = 0;
+    double area = 0;
+    for (const arcsim::JsonValue& panel : layout.find("panels")->items) {
+        steps += panel.find("outline")->items.size();
+        area += panel.find("area_m2")->number;
+    }
+    CHECK(steps == sides);
+    CHECK(area == Approx(arcsim::total_area(r.mesh)));
 }
