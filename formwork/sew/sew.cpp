@@ -1,0 +1,86 @@
+#include "formwork/sew/sew.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numbers>
+#include <random>
+
+namespace formwork {
+namespace {
+
+GrainVariant run_variant(const std::string& name, const SewInput& input, const SewParams& params, const SewResult& aligned,
+                         const SurfaceDistance& cut, const std::vector<double>& area,
+                         const std::function<void(const std::string&, const IterationReport&)>& on_iteration) {
+    GrainVariant v;
+    v.name = name;
+    SewnBag bag = aligned.bag;
+    bag.flat = turn_grain(bag.flat, input.segmentation.panel, input.segmentation.n_panels, name, params.seed);
+    EquilibriumProblem problem = sewn_problem(input, params, bag);
+    if (on_iteration) problem.on_iteration = [&](const IterationReport& r) { on_iteration(name, r); };
+    try {
+        const EquilibriumResult r = find_equilibrium(problem);
+        const WeaveMeasures weave = measure_weave(r, params.material, area, params.strength);
+        const Deviation shape = deviation({r.x, bag.cut.faces}, cut);
+        v.mean_abs_shear = weave.abs_shear.mean;
+        v.p95_abs_shear = weave.abs_shear.p95;
+        v.max_abs_shear = weave.abs_shear.max;
+        v.max_tension_N_per_m = weave.tension.max;
+        v.shape_rms_m = shape.rms;
+        v.shape_max_m = shape.max;
+        v.depth_m = r.depth_m;
+        v.residual = r.residual;
+        v.wrinkled_faces = r.wrinkled_faces;
+        v.iterations = r.iterations;
+        v.factorizations = r.factorizations;
+    } catch (const EquilibriumError& e) {
+        v.failure = e.what();   // a baseline that has no equilibrium is an answer too; the bag itself stands
+    }
+    return v;
+}
+
+}  // namespace
+
+std::vector<FlatTriangle> turn_grain(const std::vector<FlatTriangle>& flat, const std::vector<int>& panel_of_face, int n_panels,
+                                     const std::string& variant, int seed) {
+    std::vector<double> angle(n_panels, std::numbers::pi / 4);
+    if (variant == "random") {
+        std::mt19937 random(static_cast<unsigned>(seed));   // its sequence is the same on every machine
+        for (double& a : angle) a = std::numbers::pi * (random() / 4294967296.0);
+    }
+    std::vector<FlatTriangle> turned = flat;
+    for (size_t f = 0; f < flat.size(); ++f) {
+        const Eigen::Rotation2Dd rotation(angle[panel_of_face[f]]);
+        for (Vector2d& u : turned[f]) u = rotation * u;
+    }
+    return turned;
+}
+
+SewResult sew_bag(const SewInput& input, const SewParams& params,
+                  const std::function<void(const std::string&, const IterationReport&)>& on_iteration) {
+    const Segmentation& s = input.segmentation;
+    SewResult result;
+    result.bag = make_sewn_bag(input, params);
+    EquilibriumProblem problem = sewn_problem(input, params, result.bag);
+    if (on_iteration) problem.on_iteration = [&](const IterationReport& r) { on_iteration("sew", r); };
+    result.equilibrium = find_equilibrium(problem);
+
+    std::vector<double> area;
+    for (int f = 0; f < s.mesh.n_faces(); ++f) area.push_back(arcsim::face_area(s.mesh, f));
+    result.weave = measure_weave(result.equilibrium, params.material, area, params.strength);
+    result.seams = measure_seams(result.bag, params, result.equilibrium, static_cast<int>(s.seams.size()));
+    for (const SeamLoad& load : result.seams) {
+        result.seam_max_force_N = std::max(result.seam_max_force_N, load.thread_force_max);
+        result.seam_max_line_load_N_per_m = std::max(result.seam_max_line_load_N_per_m, load.line_load_max);
+        result.seam_gap_max_m = std::max(result.seam_gap_max_m, load.gap_max);
+    }
+    const Surface shape{result.equilibrium.x, result.bag.cut.faces};
+    const SurfaceDistance cut(s.mesh);
+    result.from_cut = deviation(shape, cut);
+    result.from_inflated = deviation(shape, SurfaceDistance(Surface{result.bag.inflated, result.bag.cut.faces}));
+    if (input.target) result.from_target = deviation(shape, SurfaceDistance(*input.target));
+    for (const std::string& name : params.compare)
+        result.compare.push_back(run_variant(name, input, params, result, cut, area, on_iteration));
+    return result;
+}
+
+}  // namespace formwork
