@@ -42,9 +42,15 @@ struct Stopwatch {
 NewtonSolver::NewtonSolver(StaticSystem& system, const SolverParams& params,
                            std::function<void(const IterationReport&)> on_iteration)
     : system_(system), params_(params), on_iteration_(std::move(on_iteration)),
-      solver_(arcsim::make_linear_solver(kind_of(params.linear_solver))), H_(system.pattern()),
+      solver_(arcsim::make_linear_solver(kind_of(params.linear_solver))), 
+      H_(system.pattern(), system.membrane().law().is_strongly_unsymmetric() ? BlockMatrix::Kind::general
+                                                                             : BlockMatrix::Kind::symmetric),
       limit_(params.max_iterations), T_ref_(system.scales().tension) {
     solver_->analyze(system.pattern());
+    if (H_.is_general()) {
+        lu_ = arcsim::make_linear_solver(SolverKind::umfpack);
+        lu_->analyze(system.pattern());
+    }
     times_.symbolic = solver_->cost().symbolic_s;
     times_.ordering = system.ordering_s();
 }
@@ -179,7 +185,8 @@ NewtonOutcome NewtonSolver::solve(VectorXd& x, double tolerance, double T0, cons
                 return out;
             }
         }
-        if (!direction(T0, out.residual)) {
+        const bool found = H_.is_general() ? direction_by_lu(T0) : direction(T0, out.residual);
+        if (!found) {
             out.status = NewtonStatus::stalled;
             return out;
         }

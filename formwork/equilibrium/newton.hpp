@@ -26,6 +26,8 @@ struct NewtonOutcome {
 ///     bulges smoothly at once;
 ///   - the linear system is solved by conjugate gradients on an older factor; a new factor is made only when those need
 ///     too many iterations or meet negative curvature;
+///     A law that is strongly unsymmetric gets an LU factorisation of the whole tangent instead, once per step: with
+///     the symmetric half alone a woven sock takes hundreds of steps;
 ///   - a step is halved until the force along it no longer pulls back by more than half: no energy is needed, so laws
 ///     without potential are welcome.
 class NewtonSolver {
@@ -38,7 +40,9 @@ public:
     NewtonOutcome solve(VectorXd& x, double tolerance, double T0, const std::string& phase);
 
     int iterations() const { return iterations_; }
-    int factorizations() const { return solver_->cost().factorizations; }
+    int factorizations() const {
+        return solver_->cost().factorizations + (lu_ ? lu_->cost().factorizations : 0);
+    }
     const std::vector<IterationReport>& history() const { return history_; }
     const SolverTimes& times() const { return times_; }
     const arcsim::LinearSolver& linear_solver() const { return *solver_; }
@@ -46,6 +50,7 @@ public:
 
 private:
     bool direction(double& T0, double relative);
+    bool direction_by_lu(double& T0);
     bool factorize_regularised(double& T0);
     double rounding_floor(const VectorXd& x, double load);
     void report(const std::string& phase, double residual, double step, const VectorXd& x);
@@ -53,7 +58,7 @@ private:
     StaticSystem& system_;
     SolverParams params_;
     std::function<void(const IterationReport&)> on_iteration_;
-    std::unique_ptr<arcsim::LinearSolver> solver_;
+    std::unique_ptr<arcsim::LinearSolver> solver_, lu_;   // lu_: for strongly unsymmetric laws
     arcsim::FactorPcg pcg_;
     BlockMatrix H_;
     VectorXd border_, g_, d_, trial_g_, rhs_;

@@ -49,6 +49,8 @@ public:
     /// principal stresses.
     virtual FaceState state(const Vector3d& eps) const = 0;
     virtual bool has_potential() const = 0;
+    /// True when dS/deps is so far from symmetric that its symmetric half makes a poor Newton matrix.
+    virtual bool is_strongly_unsymmetric() const { return false; }
     /// Larger of the rest stiffnesses, N/m: what residuals are scaled with.
     virtual double rest_stiffness() const = 0;
     /// Largest stiffness that any strain of the table shows, N/m.

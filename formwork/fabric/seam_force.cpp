@@ -3,6 +3,11 @@
 #include <algorithm>
 
 namespace formwork {
+namespace {
+
+bool is_slack(const SeamSpring& e, double length) { return e.goes_slack && length <= e.L; }
+
+}  // namespace
 
 using arcsim::Matrix3d;
 using arcsim::State;
@@ -13,6 +18,7 @@ std::optional<double> SeamForce::energy(const State& s) const {
     double E = 0;
     for (const SeamSpring& e : springs_) {
         const double longer = (s.x.segment<3>(3 * e.j) - s.x.segment<3>(3 * e.i)).norm() - e.L;
+        if (is_slack(e, longer + e.L)) continue;
         E += 0.5 * e.kappa * longer * longer;
     }
     return E;
@@ -22,6 +28,7 @@ void SeamForce::add_gradient(const State& s, VectorXd& g) const {
     for (const SeamSpring& e : springs_) {
         const Vector3d d = s.x.segment<3>(3 * e.j) - s.x.segment<3>(3 * e.i);
         const double l = d.norm();
+        if (is_slack(e, l)) continue;
         const Vector3d t = e.L == 0 ? Vector3d(e.kappa * d) : l > 0 ? Vector3d(e.kappa * (1 - e.L / l) * d) : Vector3d::Zero();
         g.segment<3>(3 * e.i) -= t;
         g.segment<3>(3 * e.j) += t;
@@ -33,6 +40,7 @@ void SeamForce::add_hessian(const State& s, arcsim::Tangent t, arcsim::BlockMatr
         const SeamSpring& e = springs_[k];
         const Vector3d d = s.x.segment<3>(3 * e.j) - s.x.segment<3>(3 * e.i);
         const double l = d.norm();
+        if (is_slack(e, l)) continue;
         Matrix3d K = e.kappa * Matrix3d::Identity();
         if (e.L > 0 && l > 0) {
             const Matrix3d along = d * d.transpose() / (l * l);

@@ -12,6 +12,8 @@ namespace formwork {
 ///   E = ½ kappa (l - L)²,   f_i = kappa (l - L) x_ij / l                                  (10)
 ///   K = kappa [ (1 - L/l) (I - t t^T) + t t^T ],  t = x_ij / l                            (11)
 ///
+/// A spring that goes slack pulls as (10) when longer than L and does nothing when shorter.
+///
 /// L = 0 is a stitch: ½ kappa l², without a direction to lose when the ends meet.
 ///
 /// @drops  definite: the term 1 - L/l where the spring is shorter than L (it is negative there)

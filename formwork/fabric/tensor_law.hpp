@@ -18,6 +18,9 @@ public:
     void evaluate(const StrainLanes& e, Want want, StressLanes& out) const override;
     FaceState state(const Vector3d& eps) const override;
     bool has_potential() const override { return constant_; }
+    /// The table turns with the principal stretch: at 1 % strain the woven fabric's coupling of shear into warp
+    /// tension is half its warp stiffness, and the symmetric half of the tangent is not even definite.
+    bool is_strongly_unsymmetric() const override { return !constant_; }
     double rest_stiffness() const override { return rest_stiffness_; }
     double largest_stiffness() const override { return largest_stiffness_; }
 

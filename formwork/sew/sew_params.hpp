@@ -21,6 +21,12 @@ inline constexpr std::array seam_model_names{
     arcsim::EnumName{SeamModel::shared, "shared", "both panels share the seam's nodes"},
     arcsim::EnumName{SeamModel::stitch, "stitch", "nodes of their own, joined by springs of zero length: the seam can gap"}};
 
+/// What a seam's thread does when its edge becomes shorter than at rest.
+enum class ThreadCompression { slack, full };
+inline constexpr std::array thread_compression_names{
+    arcsim::EnumName{ThreadCompression::slack, "slack", "nothing: a thread cannot push"},
+    arcsim::EnumName{ThreadCompression::full, "full", "it pushes, as (10) reads: the shape may then depend on the start"}};
+
 /// Where the search for the sewn equilibrium begins; the result must not depend on it.
 enum class SewStart { inflated, rest };
 inline constexpr std::array sew_start_names{
@@ -28,6 +34,10 @@ inline constexpr std::array sew_start_names{
     arcsim::EnumName{SewStart::rest, "rest", "from the surface that was cut"}};
 
 /// Keys of `formwork.sew`.
+///
+/// The thread goes slack by default. (10) as it is written also pushes, and a chain of springs that push, without
+/// bending stiffness, has several equilibria: a woven sock of 15 cm whose bottom seam is compressed by the wall
+/// ended 18 mm deeper from the inflated than from the rest shape. In tension both are (10).
 struct SewParams {
     MaterialParams material = [] {
         MaterialParams m;
@@ -38,6 +48,7 @@ struct SewParams {
     bool self_weight = true;
     double seam_stiffness = 5e5;             // kappa of (10), N/m per seam edge
     std::optional<double> seam_EA;           // N; replaces kappa by EA / L
+    ThreadCompression thread_compression = ThreadCompression::slack;
     SeamModel seams = SeamModel::shared;
     double stitch_stiffness = 5e5;           // N/m per stitch
     SewStart start = SewStart::inflated;
@@ -65,6 +76,8 @@ void visit(Archive& a, SewParams& p) {
                "kappa of (10), per seam edge: the seam's stiffness EA = kappa L then depends on the mesh.");
     a.optional("seam_EA", p.seam_EA, "N", positive,
                "Stiffness of a seam as a thread; kappa = EA / L, independent of the mesh. Replaces seam_stiffness.");
+    a.choice("thread_compression", p.thread_compression, thread_compression_names,
+             "What the thread does where its seam becomes shorter than at rest.");
     a.choice("seams", p.seams, seam_model_names, "How the panels hold together.");
     a.optional("stitch_stiffness", p.stitch_stiffness, "N/m", positive, "Of each stitch, with seams: stitch.");
     a.choice("start", p.start, sew_start_names, "Where the search for the equilibrium begins.");

@@ -99,7 +99,8 @@ SewnBag make_sewn_bag(const SewInput& input, const SewParams& params) {
     bag.edges = seam_edges(s);
     bag.node_of_cut.resize(s.mesh.x.size());
     for (size_t i = 0; i < bag.node_of_cut.size(); ++i) bag.node_of_cut[i] = static_cast<int>(i);
-    for (const SeamEdge& e : bag.edges) bag.springs.push_back({e.node[0], e.node[1], e.length, params.kappa(e.length)});
+    const bool slack = params.thread_compression == ThreadCompression::slack;
+    for (const SeamEdge& e : bag.edges) bag.springs.push_back({e.node[0], e.node[1], e.length, params.kappa(e.length), slack});
     if (params.seams == SeamModel::stitch) split_into_stitches(s, params, bag);
     return bag;
 }

@@ -64,6 +64,7 @@ void split_into_stitches(const Segmentation& s, const SewParams& params, SewnBag
             bag.cut.faces[f][k] = node_of_fan[fan];
         }
     bag.springs.clear();
+    const bool slack = params.thread_compression == ThreadCompression::slack;
     std::map<std::pair<int, int>, char> stitched;
     std::vector<SeamSpring> stitches;
     for (const SeamEdge& e : bag.edges) {
@@ -73,7 +74,7 @@ void split_into_stitches(const Segmentation& s, const SewParams& params, SewnBag
                 const int corner = corner_at(mesh, e.face[side], e.node[end]);
                 own[side][end] = bag.cut.faces[e.face[side]][corner % 3];
             }
-        for (int side = 0; side < 2; ++side) bag.springs.push_back({own[side][0], own[side][1], e.length, 0.5 * params.kappa(e.length)});
+        for (int side = 0; side < 2; ++side) bag.springs.push_back({own[side][0], own[side][1], e.length, 0.5 * params.kappa(e.length), slack});
         for (int end = 0; end < 2; ++end) {
             const auto pair = std::minmax(own[0][end], own[1][end]);
             if (pair.first == pair.second || stitched.count(pair)) continue;

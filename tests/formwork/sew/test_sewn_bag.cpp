@@ -27,7 +27,7 @@ EquilibriumResult inflate(const SewnSock& sock, double level) {
 
 TEST_CASE("the sewn bag ends in one state from the inflated and from the rest shape, and carries its weight") {
     const SewnSock sock(0.1, 0.15, 5);
-    const double level = 0.02;
+    const double level = 0;
     const EquilibriumResult soft = inflate(sock, level);
     SewInput input = sock.input(level);
     const SewInput filled{input.segmentation, input.panels, input.input_faces, soft.x, input.input_fixed,
@@ -43,13 +43,27 @@ TEST_CASE("the sewn bag ends in one state from the inflated and from the rest sh
     REQUIRE(r.residual < 1e-8);
     REQUIRE(r.fill_level_m == Approx(level));
     const double weight = 9.81 * (0.2 * arcsim::total_area(sock.cut.mesh) + 1500 * r.volume_m3);
-    // The liquid stands above the rim's plane, and what it weighs there rests on the rim's own column.
-    const double above = 9.81 * 1500 * (r.volume_m3 - r.capacity_m3);
-    INFO("support " << r.support_force_N.transpose() << " weight " << weight << " of it above the rim " << above);
-    REQUIRE(std::min(std::abs(r.support_force_N[2] - weight), std::abs(r.support_force_N[2] - weight + above)) < 1e-6 * weight);
+    REQUIRE(r.support_force_N[2] == Approx(weight).epsilon(1e-7));
+    REQUIRE(r.iterations < 40);   // the whole unsymmetric tangent: its symmetric half needs hundreds
     REQUIRE(r.support_force_N.head<2>().norm() < 1e-6 * weight);
     REQUIRE(from_inflated.from_inflated.rms > 1e-3);
     REQUIRE(from_inflated.from_cut.rms < from_inflated.from_inflated.rms);
+}
+
+TEST_CASE("threads that push make the shape depend on the start; threads that go slack do not") {
+    const SewnSock sock(0.1, 0.15, 4);
+    const EquilibriumResult soft = inflate(sock, 0.02);
+    const SewInput input = sock.input(0.02);
+    const SewInput filled{input.segmentation, input.panels, input.input_faces, soft.x, input.input_fixed,
+                          input.up, input.plaster, soft.fill_level_m, soft.volume_m3, {}};
+    SewParams params = SewnSock::params();
+    const SewResult slack = sew_bag(filled, params);
+    params.start = SewStart::rest;
+    REQUIRE(largest_difference(slack.equilibrium.x, sew_bag(filled, params).equilibrium.x) < 1e-8);
+    const std::vector<SeamSpring>& springs = slack.bag.springs;
+    const auto length = [&](const SeamSpring& s) { return (slack.equilibrium.x[s.j] - slack.equilibrium.x[s.i]).norm(); };
+    REQUIRE(std::any_of(springs.begin(), springs.end(), [&](const SeamSpring& s) { return length(s) < s.L; }));
+    REQUIRE(std::any_of(springs.begin(), springs.end(), [&](const SeamSpring& s) { return length(s) > s.L; }));
 }
 
 TEST_CASE("weave along the meridians of a sock sees little shear, weave at 45 degrees much more") {
@@ -58,7 +72,7 @@ TEST_CASE("weave along the meridians of a sock sees little shear, weave at 45 de
     params.start = SewStart::rest;
     params.compare = {"rotated_45", "random"};
     params.strength = 17500;
-    const SewResult r = sew_bag(sock.input(0.02), params);
+    const SewResult r = sew_bag(sock.input(0), params);
     REQUIRE(r.compare.size() == 2);
     for (const GrainVariant& v : r.compare) {
         INFO(v.name << ": " << v.failure);
