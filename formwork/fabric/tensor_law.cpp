@@ -27,6 +27,8 @@ TensorStress stress_and_tangent(const arcsim::StiffnessSample& sample, const Vec
     return {stress(k, e), by_G, k};
 }
 
+const Eigen::Matrix<double, 4, 3> no_slope = Eigen::Matrix<double, 4, 3>::Zero();
+
 double larger_principal(const Vector3d& t) { return 0.5 * (t[0] + t[1]) + std::hypot(0.5 * (t[0] - t[1]), t[2]); }
 double smaller_principal(const Vector3d& t) { return 0.5 * (t[0] + t[1]) - std::hypot(0.5 * (t[0] - t[1]), t[2]); }
 
@@ -61,12 +63,15 @@ void TensorMembrane::evaluate_face(const Vector3d& eps, Want want, FaceStress& o
             out.C *= r;
             out.psi *= r;
         } else if (smaller_principal(full.S) < 0) {
-            Wrinkle w = wrinkle_of_constant(full.k, eps);
-            if (!constant_) refine_wrinkle(law, eps, w);
+            const Wrinkle w = wrinkle_of_constant(full.k, eps);
             const Vector3d there = with_wrinkle(eps, w);
-            const TensorStress relaxed = law(there);
+            const TensorStress relaxed = stress_and_tangent({full.k, no_slope}, there);
             out.S = r * full.S + (1 - r) * relaxed.S;
-            if (tangent) out.C = r * full.C + (1 - r) * wrinkle_tangent(relaxed, w);
+            if (tangent) {
+                Eigen::Matrix<double, 4, 3> dk = constant_ ? no_slope : table_.sample(eps).dk_dG;
+                dk.col(2) *= 0.5;
+                out.C = r * full.C + (1 - r) * wrinkle_tangent(relaxed, w, there, dk);
+            }
             out.psi = r * out.psi + (1 - r) * 0.5 *
                                         (relaxed.S[0] * there[0] + relaxed.S[1] * there[1] +
                                          2 * relaxed.S[2] * there[2]);

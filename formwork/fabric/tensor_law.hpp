@@ -9,8 +9,9 @@ namespace formwork {
 /// S_uv = k_ss e_uv (SYSTEM row 3) with k = k(eps) from the material's table.
 ///
 /// Relaxed (tension field): a wrinkled face takes up a wrinkle strain p n n^T, p >= 0, normal to the direction t of its
-/// one tension, such that S(eps + p n n^T) = sigma t t^T (tensor_wrinkle.hpp). Only a table of constant stiffness
-/// has a potential.
+/// one tension, such that K (eps + p n n^T) = sigma t t^T, with the secant stiffness K of the strain eps itself. (K of
+/// eps + p n n^T would be another reading; its equations lose their solution where t crosses a kink of the table, and the
+/// stress jumps there: sewn bags then cycle at a residual of 1e-3.) Only a table of constant stiffness has a potential.
 class TensorMembrane final : public MembraneLaw {
 public:
     TensorMembrane(const arcsim::StretchingRows& rows, arcsim::Sampling sampling, double multiplier,

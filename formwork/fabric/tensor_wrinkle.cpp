@@ -114,54 +114,24 @@ Wrinkle wrinkle_of_constant(const arcsim::Stiffness4& k, const Vector3d& eps) {
     return w;
 }
 
-bool refine_wrinkle(const std::function<TensorStress(const Vector3d&)>& law, const Vector3d& eps, Wrinkle& w) {
-    // First freeze the table (it changes slowly), then Newton on the two equations with its exact slope.
-    for (int i = 0; i < 3; ++i) w = wrinkle_of_constant(law(with_wrinkle(eps, w)).k, eps);
-    const auto residual = [](const TensorStress& t, double a) -> arcsim::Vector2d {
-        const double c = std::cos(a), s = std::sin(a);
-        return {normal_normal(c, s).dot(t.S), tension_normal(c, s).dot(t.S)};
-    };
-    TensorStress now = law(with_wrinkle(eps, w));
-    arcsim::Vector2d R = residual(now, w.a);
-    for (int i = 0; i < 20; ++i) {
-        const double c = std::cos(w.a), s = std::sin(w.a);
-        const Vector3d Vn = normal_normal(c, s), Vt = tension_normal(c, s);
-        w.sigma = c * c * now.S[0] + s * s * now.S[1] + 2 * c * s * now.S[2];
-        if (R.norm() <= 1e-13 * std::abs(w.sigma)) return true;
-        arcsim::Matrix2d J;                    // columns: d/dp, d/da; d(n n^T)/da = -2 sym(t n^T)
-        const Vector3d CVn = now.C * Vn, CVt = now.C * Vt;
-        J << Vn.dot(CVn), -2 * w.p * Vn.dot(CVt) - 2 * R[1],   //
-            Vt.dot(CVn), -2 * w.p * Vt.dot(CVt) + R[0] - w.sigma;
-        const arcsim::Vector2d d = J.fullPivLu().solve(R);
-        double step = 1;
-        bool better = false;
-        for (int k = 0; k < 8 && !better; ++k, step *= 0.5) {
-            Wrinkle next = w;
-            next.p -= step * d[0];
-            next.a -= step * d[1];
-            const TensorStress there = law(with_wrinkle(eps, next));
-            const arcsim::Vector2d Rn = residual(there, next.a);
-            if (Rn.norm() < R.norm()) w = next, now = there, R = Rn, better = true;
-        }
-        if (!better) break;
-    }
-    const double c = std::cos(w.a), s = std::sin(w.a);
-    w.sigma = c * c * now.S[0] + s * s * now.S[1] + 2 * c * s * now.S[2];
-    return R.norm() <= 1e-9 * std::abs(w.sigma);
-}
-
-Matrix3d wrinkle_tangent(const TensorStress& at, const Wrinkle& w) {
+Matrix3d wrinkle_tangent(const TensorStress& at, const Wrinkle& w, const Vector3d& e,
+                         const Eigen::Matrix<double, 4, 3>& dk) {
     const double c = std::cos(w.a), s = std::sin(w.a);
     const Vector3d Vn = normal_normal(c, s), Vt = tension_normal(c, s);
     const Vector3d CVn = at.C * Vn, CVt = at.C * Vt;
     arcsim::Matrix2d J;
     J << Vn.dot(CVn), -2 * w.p * Vn.dot(CVt),   //
         Vt.dot(CVn), -2 * w.p * Vt.dot(CVt) - w.sigma;
+    // What changes S at fixed p and a: the strain, and with it the stiffness.
+    Matrix3d direct = at.C;
+    direct.row(0) += e[0] * dk.row(0) + e[1] * dk.row(1);
+    direct.row(1) += e[1] * dk.row(2) + e[0] * dk.row(1);
+    direct.row(2) += e[2] * dk.row(3);
     Eigen::Matrix<double, 2, 3> rhs;
-    rhs.row(0) = -Vn.transpose() * at.C;
-    rhs.row(1) = -Vt.transpose() * at.C;
+    rhs.row(0) = -Vn.transpose() * direct;
+    rhs.row(1) = -Vt.transpose() * direct;
     const Eigen::Matrix<double, 2, 3> d = J.inverse() * rhs;   // det < 0: w'' < 0 at the maximum
-    return at.C + CVn * d.row(0) - 2 * w.p * CVt * d.row(1);
+    return direct + CVn * d.row(0) - 2 * w.p * CVt * d.row(1);
 }
 
 }  // namespace formwork

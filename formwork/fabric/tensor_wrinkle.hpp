@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-
 #include "arcsim/base/types.hpp"
 #include "arcsim/material/material_data.hpp"
 
@@ -28,12 +26,11 @@ struct Wrinkle {
 /// compliance (tension_field.md 1). Global, since w has up to two maxima.
 Wrinkle wrinkle_of_constant(const arcsim::Stiffness4& k, const Vector3d& eps);
 
-/// Solves n.S n = 0 and t.S n = 0 for (a, p), S at eps + p n n^T, by Newton's method from `guess`.
-/// @returns false when it does not converge (a kink or jump of the table); then w is the best found
-bool refine_wrinkle(const std::function<TensorStress(const Vector3d&)>& law, const Vector3d& eps, Wrinkle& w);
-
-/// dS/deps of the wrinkled face, by implicit differentiation of those two equations: exact for any law.
-Matrix3d wrinkle_tangent(const TensorStress& at_wrinkle_strain, const Wrinkle& w);
+/// dS/deps of the wrinkled face by implicit differentiation of n.S n = 0 and t.S n = 0, where S = K(k) (eps + p n n^T).
+/// @param K      the constant stiffness matrix of k, by (e_uu, e_vv, 2 e_uv), and the stress at eps + p n n^T
+/// @param dk     derivative of k by (e_uu, e_vv, 2 e_uv); zero for a constant table
+Matrix3d wrinkle_tangent(const TensorStress& at_wrinkle_strain, const Wrinkle& w, const Vector3d& wrinkle_strain,
+                         const Eigen::Matrix<double, 4, 3>& dk);
 
 /// eps + p n n^T.
 Vector3d with_wrinkle(const Vector3d& eps, const Wrinkle& w);
