@@ -19,6 +19,7 @@ constexpr double wake_at = 1e-4;         // of T*: the first one tried where the
 constexpr double largest_step = 0.5;     // of the rest shape's half width per Newton step
 constexpr int most_halvings = 12;
 constexpr int patience = 60;             // Newton steps without a new best residual
+constexpr double newton_is_trusted_at = 1e-2;   // relative residual; unsymmetric laws
 constexpr double runaway_stretch = 12;   // far beyond any table; a bag that large has no equilibrium
 
 SolverKind kind_of(LinearSolverChoice c) {
@@ -185,7 +186,9 @@ NewtonOutcome NewtonSolver::solve(VectorXd& x, double tolerance, double T0, cons
                 return out;
             }
         }
-        const bool found = H_.is_general() ? direction_by_lu(T0) : direction(T0, out.residual);
+        // Near the solution of an unsymmetric law Newton's direction need not pull forward; the residual judges it then.
+        const bool by_residual = H_.is_general() && out.residual < newton_is_trusted_at;
+        const bool found = H_.is_general() ? direction_by_lu(T0, by_residual) : direction(T0, out.residual);
         if (!found) {
             out.status = NewtonStatus::stalled;
             return out;
@@ -202,14 +205,17 @@ NewtonOutcome NewtonSolver::solve(VectorXd& x, double tolerance, double T0, cons
             trial = x + step * d_;
             there = system_.gradient(trial, trial_g_);
             const double pull = -d_.dot(trial_g_);
-            if (std::isfinite(pull) && pull >= -0.5 * slope) break;
+            // A full step may meet a kink of the table and still be a good one; shorter ones have to gain.
+            if (by_residual && there.residual < (halving == 0 ? 2 : 1) * now.residual) break;
+            if (!by_residual && std::isfinite(pull) && pull >= -0.5 * slope) break;
             if (halving == most_halvings) break;
         }
         slow = there.residual > 0.5 * now.residual ? slow + 1 : 0;
         x = trial;
         std::swap(g_, trial_g_);
         now = there;
-        if (step >= 0.9) T0 /= 10;
+        if (by_residual) T0 /= 10;
+        else if (step >= 0.9) T0 /= 10;
         else if (step >= 0.4) T0 /= 2;
         else if (step >= 0.15) T0 = std::max(2 * T0, wake_at * T_ref_);
         else T0 = std::max(8 * T0, wake_at * T_ref_);

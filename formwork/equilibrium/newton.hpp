@@ -50,7 +50,7 @@ public:
 
 private:
     bool direction(double& T0, double relative);
-    bool direction_by_lu(double& T0);
+    bool direction_by_lu(double& T0, bool any_direction);
     bool factorize_regularised(double& T0);
     double rounding_floor(const VectorXd& x, double load);
     void report(const std::string& phase, double residual, double step, const VectorXd& x);

@@ -11,6 +11,7 @@
 #include "formwork/scene/fixed_selector.hpp"
 #include "formwork/panels/panel_params.hpp"
 #include "formwork/scene/segment_keys.hpp"
+#include "formwork/sew/sew_params.hpp"
 
 namespace formwork {
 
@@ -30,32 +31,6 @@ void visit(Archive& a, InflateParams& p) {
     a.optional("self_weight", p.self_weight, "The fabric's own weight acts.");
     a.choice("pressure", p.pressure, pressure_quadrature_names, "How the liquid's pressure becomes forces.");
     a.choice("pressure_jacobian", p.pressure_jacobian, pressure_jacobian_names, "Derivative of the pressure in the tangent.");
-    a.nested("solver", p.solver, "How the equilibrium is found.");
-}
-
-/// Keys of `formwork.sew`.
-struct SewParams {
-    MaterialParams material = [] {
-        MaterialParams m;
-        m.model = FabricModel::tensor;
-        return m;
-    }();
-    double density = 0.2;               // fabric, kg/m²
-    double seam_stiffness = 5e5;        // kappa of (10), N/m per edge
-    std::optional<double> seam_EA;      // N; replaces kappa by EA / L
-    std::vector<std::string> compare;   // "rotated_45", "random"
-    SolverParams solver;
-};
-template <class Archive>
-void visit(Archive& a, SewParams& p) {
-    a.nested("material", p.material, "The woven fabric that the panels are cut from.");
-    a.optional("density", p.density, "kg/m²", arcsim::non_negative, "Of the fabric.");
-    a.optional("seam_stiffness", p.seam_stiffness, "N/m", arcsim::non_negative, "kappa of (10), per seam edge.");
-    a.optional("seam_EA", p.seam_EA, "N", arcsim::positive,
-               "Stiffness of a seam as a thread; kappa = EA / L, independent of the mesh. Replaces seam_stiffness.");
-    a.optional("compare", p.compare, "Runs with other grain, for comparison: \"rotated_45\", \"random\".");
-    for (const std::string& name : p.compare)
-        a.check(name == "rotated_45" || name == "random", "compare", "\"" + name + "\" is not known: \"rotated_45\" or \"random\".");
     a.nested("solver", p.solver, "How the equilibrium is found.");
 }
 

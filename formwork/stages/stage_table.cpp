@@ -10,7 +10,8 @@ const std::vector<Stage>& stages() {
           "segment/source.csv", "segment/directions.csv"}, run_segment},
         {"panels", {"segment/segments.obj", "segment/labels.csv", "segment/seams.csv", "segment/directions.csv"},
          {"panels/sewn_rest.obj", "panels/panels.csv", "panels/panels.svg"}, run_panels},
-        {"sew", {"panels/sewn_rest.obj", "segment/segments.obj", "segment/source.csv"}, {"sew/sewn.obj", "sew/strain.csv"}, run_sew},
+        {"sew", {"panels/sewn_rest.obj", "segment/segments.obj", "segment/source.csv", "inflate/inflated.obj"},
+         {"sew/sewn.obj", "sew/strain.csv", "sew/weave.csv", "sew/seams.csv", "sew/deviation.csv"}, run_sew},
         {"report", {}, {"report.html"}, run_report}};
     return table;
 }

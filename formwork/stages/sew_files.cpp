@@ -1,0 +1,102 @@
+#include "formwork/stages/sew_files.hpp"
+
+#include "arcsim/base/files.hpp"
+#include "formwork/stages/csv.hpp"
+
+namespace formwork {
+
+using arcsim::JsonValue;
+
+namespace {
+
+JsonValue spread_summary(const Spread& s) {
+    JsonValue v = JsonValue::object();
+    v.set("mean", s.mean);
+    v.set("p95", s.p95);
+    v.set("min", s.min);
+    v.set("max", s.max);
+    return v;
+}
+
+JsonValue variant_summary(const GrainVariant& g) {
+    JsonValue v = JsonValue::object();
+    v.set("converged", g.failure.empty());
+    if (!g.failure.empty()) {
+        v.set("failure", g.failure);
+        return v;
+    }
+    v.set("mean_abs_shear", g.mean_abs_shear);
+    v.set("p95_abs_shear", g.p95_abs_shear);
+    v.set("max_abs_shear", g.max_abs_shear);
+    v.set("shape_rms_m", g.shape_rms_m);
+    v.set("shape_max_m", g.shape_max_m);
+    v.set("depth_m", g.depth_m);
+    v.set("max_tension_N_per_m", g.max_tension_N_per_m);
+    v.set("wrinkled_faces", g.wrinkled_faces);
+    v.set("residual", g.residual);
+    v.set("iterations", g.iterations);
+    v.set("factorizations", g.factorizations);
+    return v;
+}
+
+}  // namespace
+
+void write_sew_tables(const std::filesystem::path& folder, const SewResult& r, const Segmentation& s) {
+    CsvText weave("face,panel,stretch_warp,stretch_weft,cos_angle,tension_warp,tension_weft,tension_max");
+    for (std::size_t f = 0; f < r.weave.face.size(); ++f) {
+        const FaceWeave& w = r.weave.face[f];
+        weave.add(static_cast<int>(f)).add(s.panel[f]).add(w.stretch_warp).add(w.stretch_weft).add(w.cos_angle);
+        weave.add(w.tension_warp).add(w.tension_weft).add(w.tension_max).end_row();
+    }
+    arcsim::write_file_atomically(folder / "weave.csv", weave.text());
+
+    CsvText seams("seam,panel_a,panel_b,length_m,thread_force_max_N,thread_force_mean_N,line_load_max_N_per_m,gap_max_m");
+    for (const SeamLoad& l : r.seams) {
+        const Seam& seam = s.seams[l.seam];
+        if (seam.is_rim()) continue;
+        seams.add(l.seam).add(seam.panel[0]).add(seam.panel[1]).add(l.length).add(l.thread_force_max);
+        seams.add(l.thread_force_mean).add(l.line_load_max).add(l.gap_max).end_row();
+    }
+    arcsim::write_file_atomically(folder / "seams.csv", seams.text());
+
+    CsvText deviation(std::string("vertex,from_cut_m,from_inflated_m") + (r.from_target ? ",from_target_m" : ""));
+    for (std::size_t i = 0; i < r.from_cut.per_node.size(); ++i) {
+        deviation.add(static_cast<int>(i)).add(r.from_cut.per_node[i]).add(r.from_inflated.per_node[i]);
+        if (r.from_target) deviation.add(r.from_target->per_node[i]);
+        deviation.end_row();
+    }
+    arcsim::write_file_atomically(folder / "deviation.csv", deviation.text());
+}
+
+void add_sew_summary(const SewResult& r, JsonValue& v) {
+    v.set("mean_abs_shear", r.weave.abs_shear.mean);
+    v.set("p95_abs_shear", r.weave.abs_shear.p95);
+    v.set("max_abs_shear", r.weave.abs_shear.max);
+    v.set("taut_mean_abs_shear", r.weave.taut_mean_abs_shear);
+    v.set("min_cos_weave_angle", r.weave.cos_angle.min);
+    v.set("max_cos_weave_angle", r.weave.cos_angle.max);
+    v.set("warp_strain", spread_summary(r.weave.eps_warp));
+    v.set("weft_strain", spread_summary(r.weave.eps_weft));
+    JsonValue histogram = JsonValue::array();
+    for (double share : r.weave.angle_histogram_deg) histogram.add(share);
+    v.set("area_share_per_5deg_off_square", std::move(histogram));
+    v.set("shape_rms_m", r.from_cut.rms);
+    v.set("shape_max_m", r.from_cut.max);
+    v.set("inflated_rms_m", r.from_inflated.rms);
+    v.set("inflated_max_m", r.from_inflated.max);
+    if (r.from_target) {
+        v.set("target_rms_m", r.from_target->rms);
+        v.set("target_max_m", r.from_target->max);
+    }
+    v.set("max_tension_N_per_m", r.weave.tension.max);
+    v.set("p95_tension_N_per_m", r.weave.tension.p95);
+    if (r.weave.utilisation) v.set("utilisation", *r.weave.utilisation);
+    v.set("seam_max_force_N", r.seam_max_force_N);
+    v.set("seam_max_line_load_N_per_m", r.seam_max_line_load_N_per_m);
+    if (r.bag.n_stitches > 0) v.set("seam_max_gap_m", r.seam_gap_max_m);
+    JsonValue compare = JsonValue::object();
+    for (const GrainVariant& g : r.compare) compare.set(g.name, variant_summary(g));
+    v.set("compare", std::move(compare));
+}
+
+}  // namespace formwork
