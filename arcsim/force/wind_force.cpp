@@ -7,7 +7,7 @@ namespace arcsim {
 
 WindForce::WindForce(std::vector<Face> faces, double density, double drag, const Vector3d& velocity,
                      const VectorXd& x)
-    : faces_(std::move(faces)), normals_(faces_.size()), density_(density), drag_(drag), velocity_(velocity) {
+    : faces_(std::move(faces)), normals_(faces_.size(), Vector3d::Zero()), density_(density), drag_(drag), velocity_(velocity) {
     refresh(x);
 }
 
@@ -38,6 +38,7 @@ void WindForce::add_gradient(const State& s, VectorXd& g) const {
 }
 
 void WindForce::add_velocity_hessian(const State& s, BlockMatrix& H) const {
+    if (!acts()) return;
     for (size_t i = 0; i < faces_.size(); ++i) {
         const Face& f = faces_[i];
         const Matrix3d nn = normals_[i] * normals_[i].transpose();

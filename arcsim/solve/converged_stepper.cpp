@@ -9,6 +9,7 @@ namespace arcsim {
 namespace {
 
 constexpr double default_max_stretch = 3;   // no cloth reaches it: beyond it a step has failed
+constexpr int halvings_before_lu = 6;
 
 }  // namespace
 
@@ -32,6 +33,7 @@ StepResult ConvergedStepper::step(State& s, double h) {
         const double part = h / static_cast<double>(1L << level);
         s.time = begin + (static_cast<double>(at) + 1) * part;
         place_handles(s.time);
+        level_ = level;
         const double tried_from = previous_h_;
         try {
             advance(s, part, result);
@@ -170,8 +172,9 @@ struct ConvergedStepper::Iterate {
 };
 
 std::vector<ConvergedStepper::Direction> ConvergedStepper::directions() const {
-    if (params_.tangent == StepTangent::exact) return {Direction::exact, Direction::definite, Direction::unsymmetric};
-    return {Direction::definite};
+    if (params_.tangent == StepTangent::definite) return {Direction::definite};
+    if (level_ < std::min(halvings_before_lu, params_.max_halvings)) return {Direction::exact, Direction::definite};
+    return {Direction::exact, Direction::definite, Direction::unsymmetric};
 }
 
 bool ConvergedStepper::try_direction(const Problem& p, Direction direction, Iterate& now) {
@@ -208,7 +211,6 @@ VectorXd ConvergedStepper::solve(const Problem& p, const State& start, StepResul
         now.v.segment<3>(3 * n.node) = (n.target - p.x.segment<3>(3 * n.node)) / p.h;
     now.scale = residual(p, now.v, now.r);
     const double small_move = 1e-6 * size_;
-    int slow = 0;                 // iterations in a row with the definite tangent
     for (int iteration = 0; iteration < params_.max_iterations; ++iteration) {
         result.residual = now.r.cwiseAbs().maxCoeff() / p.h / std::max(now.scale, 1e-300);
         if (!std::isfinite(result.residual)) fail("the forces are not finite", p.x);
@@ -217,12 +219,8 @@ VectorXd ConvergedStepper::solve(const Problem& p, const State& start, StepResul
         ++result.iterations;
         bool accepted = false;
         for (const Direction direction : directions()) {
-            constexpr int patience = 6;   // the definite tangent converges linearly, if at all
-            if (direction == Direction::definite && slow >= patience && directions().size() > 1) continue;
             accepted = try_direction(p, direction, now);
-            if (!accepted) continue;
-            slow = direction == Direction::exact ? 0 : slow + 1;
-            break;
+            if (accepted) break;
         }
         if (!accepted)
             fail("no step along Newton's direction helps, residual " + format_short(result.residual), p.x + p.h * now.v);

@@ -13,8 +13,9 @@ namespace arcsim {
 /// D: stiffness-proportional damping. Nothing lags: bending stiffness and the wind's normal are those of x.
 ///
 /// Newton with K = M + h'² H + h' (D + W). H is the exact tangent while K is positive definite; else the
-/// definite one; and where that does not help, because the balance sought is not a minimum (a sheet that is
-/// pressed together in its plane), the exact unsymmetric one with LU. The tabulated law has no potential, so the line search asks that the residual, or else the correction
+/// definite one. A balance that is not a minimum (a perfectly flat sheet that is pressed together in its plane)
+/// is out of reach of both: after some halvings the exact unsymmetric tangent with LU may find it; not before,
+/// since it would as well keep a sheet flat that ought to buckle. The tabulated law has no potential, so the line search asks that the residual, or else the correction
 /// that the old matrix would make next (natural monotonicity), becomes smaller; the latter does not suffer
 /// from the ratio of the stiffnesses.
 ///
@@ -52,6 +53,7 @@ private:
     std::unique_ptr<LinearSolver> lu_;
     LinearSolver* solver_ = nullptr;                // that holds the last factorisation
     bool is_damped_;
+    int level_ = 0;                                 // of halving, of the part under way
     double size_;                                   // of the cloth, m
     double previous_h_ = 0;                         // 0: no step to build on
     VectorXd previous_x_, previous_v_;

@@ -107,19 +107,18 @@ TEST_CASE("hard handles stand exactly where they are told") {
         stepper->step(s, 0.01);
         CHECK((s.x.segment<3>(0) - corner).norm() <= 1e-16);
         CHECK((s.x.segment<3>(9) - moved).norm() <= 1e-16);
-        CHECK(s.x.segment<3>(45)[2] < 0);
     }
 }
 
 TEST_CASE("wind, springs and glue act in a converged step as in its balance") {
     const Patch patch;
-    State s = patch.states().at("bent");
+    State s = patch.states().at("stretched");
     ClothModel model = patch_model(patch, constant_rows(), s.x, {0, 0, -9.81}, 1e-3, 1.2);
     model.springs.reserve_pairs({{12, 15}});
     model.springs.set({{0, 1e3, s.x.segment<3>(0)}, {3, 1e3, s.x.segment<3>(9)}}, {{12, 15, 0.1}});
     const auto stepper = make_stepper(model, params_of(StepMethod::newton_euler));
     const State before = s;
-    const double h = 1e-3;
+    const double h = 1e-4;
     s.time = h;
     REQUIRE(stepper->step(s, h).halvings == 0);
     // M (v - v0) + h (g + D v) = 0 with everything taken at the new state.
