@@ -13,7 +13,7 @@ enum class FillOrder { natural, amd, metis, automatic };
 /// nodes (a third of the matrix's rows) and postordered along its elimination tree, so that the factorisation needs
 /// no permutation of its own.
 ///
-/// automatic: AMD below 20 000 nodes, METIS's nested dissection above; scripts/bench_static measures both.
+/// automatic: AMD below 8 000 nodes, METIS's nested dissection above; scripts/bench_static measures both.
 /// @returns the node at each place
 std::vector<int> fill_order(int n_nodes, const std::vector<Triangle>& faces,
                             const std::vector<std::array<int, 2>>& pairs = {},
