@@ -11,7 +11,9 @@ namespace formwork {
 namespace {
 
 constexpr double prestress_part = 0.01;        // Tp = 0.01 T* (tension_field.md 3)
-constexpr double residual_part = 0.25;         // r = Tp / (0.25 k)
+// r = Tp / (0.5 k_max): no Green strain is below -1/2, so that the residual's compression r k e never exceeds Tp and the
+// membrane stays convex. (tension_field.md 3 takes 0.25 k at rest; crumpled dry cloth is compressed further than that.)
+constexpr double residual_part = 0.5;
 constexpr double wrinkles_known_at = 1e-3;     // residual at which the wrinkled region is settled enough to judge
 constexpr int most_cap_raises = 6;             // of R each: a head over the rim beyond that is a mistake
 constexpr double allowed_effect = 8e-4;        // of the regularisation on depth and volume; the promise is 1e-3
@@ -108,7 +110,7 @@ private:
     void solve_tension_field() {
         MembraneLaw& law = system_.membrane().law();
         const double T = system_.scales().tension;
-        const auto regulariser = [&](double Tp) { return Regulariser{std::min(1.0, Tp / (residual_part * law.rest_stiffness())), Tp}; };
+        const auto regulariser = [&](double Tp) { return Regulariser{std::min(1.0, Tp / (residual_part * law.largest_stiffness())), Tp}; };
         double Tp = prestress_part * T;
         law.set_regulariser(regulariser(Tp));
         solve_or_throw(std::max(wrinkles_known_at, p_.solver.tolerance), T, "prestressed");

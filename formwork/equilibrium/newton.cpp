@@ -56,23 +56,25 @@ NewtonSolver::NewtonSolver(StaticSystem& system, const SolverParams& params,
     times_.ordering = system.ordering_s();
 }
 
-/// Factorises the tangent, raising T0 until it is positive definite.
+/// Factorises the tangent, raising T0 until it is positive definite. With an unknown level the tangent at a fixed level may
+/// well be indefinite where the whole is not (a bag that balloons at a level is stable at a volume): then only the
+/// preconditioner is raised, and conjugate gradients judge the whole.
 bool NewtonSolver::factorize_regularised(double& T0) {
-    for (int attempt = 0; attempt < 12; ++attempt) {
-        bool ok;
+    double borrowed = 0;
+    bool ok = false;
+    for (int attempt = 0; attempt < 12 && !ok; ++attempt) {
         {
             Stopwatch watch(times_.numeric);
             ok = solver_->try_factorize(H_);
         }
-        if (ok) {
-            factor_is_stale_ = false;
-            return true;
-        }
-        const double raised = std::max(10 * T0, wake_at * T_ref_);
-        system_.add_laplacian(raised - T0, H_);
-        T0 = raised;
+        if (ok) break;
+        const double raised = std::max(10 * (T0 + borrowed), wake_at * T_ref_);
+        system_.add_laplacian(raised - T0 - borrowed, H_);
+        (border_.size() > 0 ? borrowed : T0) = raised - (border_.size() > 0 ? T0 : 0);
     }
-    return false;
+    if (borrowed > 0) system_.add_laplacian(-borrowed, H_);
+    factor_is_stale_ = !ok;
+    return ok;
 }
 
 /// d = -(H + border border^T)^-1 g.
