@@ -130,9 +130,11 @@ private:
             if (!outcome_.ok()) {   // less prestress than this mesh needs to be well posed: keep the last good one
                 x_ = good;
                 outcome_ = good_outcome;
+                if (round == 0) estimate_from_above(before, regulariser(2 * Tp));
                 law.set_regulariser(regulariser(Tp));
-                warnings_.push_back("the prestress could not be lowered below " + number(Tp) + " N/m; its effect on depth is about " +
-                                    number(100 * regularisation_.depth_effect) + " %");
+                warnings_.push_back("the prestress could not be lowered below " + number(Tp) +
+                                    " N/m; its effect on depth is about " + number(100 * regularisation_.depth_effect) +
+                                    " %, on volume " + number(100 * regularisation_.volume_effect) + " %");
                 return;
             }
             const Extent now = measure_extent(system_, x_);
@@ -148,6 +150,19 @@ private:
             regularisation_.volume_effect = std::abs(d_volume) * Tp / std::max(std::abs(now.volume), 1e-300);
             if (worst_effect() <= allowed_effect) return;
         }
+    }
+
+    /// The effect of Tp from the solution at 2 Tp, where there is none below; x_ stays.
+    void estimate_from_above(const Extent& at_Tp, const Regulariser& twice) {
+        VectorXd x = x_;
+        system_.membrane().law().set_regulariser(twice);
+        newton_.allow_iterations(p_.solver.max_iterations);
+        if (!newton_.solve(x, 1e-6, 0, "prestress " + number(twice.Tp)).ok()) return;
+        const Extent above = measure_extent(system_, x);
+        regularisation_.depth_extrapolated_m = 2 * at_Tp.depth - above.depth;
+        regularisation_.volume_extrapolated_m3 = 2 * at_Tp.volume - above.volume;
+        regularisation_.depth_effect = std::abs(above.depth - at_Tp.depth) / std::max(std::abs(at_Tp.depth), 1e-300);
+        regularisation_.volume_effect = std::abs(above.volume - at_Tp.volume) / std::max(std::abs(at_Tp.volume), 1e-300);
     }
 
     /// @returns false when wrinkles appear once the prestress is gone; then x_ is where it was
