@@ -71,12 +71,15 @@ TEST_CASE("two inextensible disks blow up to the balloon of Paulsen's volume, wr
     p.plaster.overpressure = 2000;
     p.self_weight = false;
     const EquilibriumResult r = find_equilibrium(p);
-    CAPTURE(2 * mirror_volume(p.rest, r.x) / (R * R * R), r.x[0][2] / R, r.x[rim].norm() / R, r.regularisation.prestress, r.regularisation.volume_effect, r.iterations, r.factorizations);
+    double radius = 0;                                      // of the edge; single nodes of it are gathered in and out
+    int n = 0;
+    for (std::size_t i = 0; i < r.x.size(); ++i)
+        if (b.held[3 * i]) radius += r.x[i].head<2>().norm(), ++n;
     REQUIRE(2 * mirror_volume(p.rest, r.x) == Approx(1.2185 * R * R * R).epsilon(4e-3));
     REQUIRE(std::abs(r.x[0][2]) == Approx(0.4569 * R).epsilon(1.5e-2));
-    // one node of a gathered edge, under the prestress that keeps so wrinkled a shape unique
-    REQUIRE(r.x[rim].head<2>().norm() == Approx(0.7628 * R).epsilon(1.5e-2));
-    REQUIRE(r.wrinkled_faces > 0.8 * r.faces);
+    REQUIRE(radius / n == Approx(0.7628 * R).epsilon(5e-3));
+    REQUIRE(r.regularisation.volume_effect < 1e-3);
+    REQUIRE(r.wrinkled_faces + r.slack_faces > r.faces / 2);
 }
 
 TEST_CASE("the square airbag rises as published (Contri, Kang, Jarasjarungkiat)") {
