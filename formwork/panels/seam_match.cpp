@@ -59,8 +59,7 @@ std::vector<Equality> equalities(const PanelSet& set, const Segmentation& s) {
             if (k > 0 && at[k] < window) chords.push_back({0, k, share / window});
         }
         const int hats = std::max(1, static_cast<int>(std::round(hats_per_spacing * length / spacing)));
-        const int skip = getenv("HATS") ? 1 : 0;
-        for (int h = skip; h <= hats - skip; ++h) {
+        for (int h = 0; h <= hats; ++h) {
             Equality equality;
             equality.seam = static_cast<int>(i);
             for (const Equality::Chord& c : chords) {
