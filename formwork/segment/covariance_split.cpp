@@ -1,9 +1,11 @@
 #include "formwork/segment/covariance_split.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <set>
 
 #include "formwork/segment/developability.hpp"
+#include "formwork/segment/seam_chains.hpp"
 
 namespace formwork {
 namespace {
@@ -58,6 +60,28 @@ int split_by_covariance(CutMesh& cut, std::vector<int>& panel, int& n_panels, do
                 if (g >= 0 && panel[g] != panel[f]) cut.mark_seam(s.faces[f][(k + 1) % 3], s.faces[f][(k + 2) % 3]);
             }
     }
+    return splits;
+}
+
+std::vector<double> panel_energies(const Segmentation& s) {
+    const Topology t = arcsim::build_topology(s.mesh);
+    return panel_energies(t, covariance_eta(s.mesh, t), s.panel, s.n_panels);
+}
+
+int split_by_covariance(Segmentation& s, double max_energy, int max_panels, const SplitParams& params) {
+    CutMesh cut(s.mesh);
+    for (const Seam& seam : s.seams)
+        for (std::size_t i = 0; !seam.is_rim() && i + 1 < seam.nodes.size(); ++i) cut.mark_seam(seam.nodes[i], seam.nodes[i + 1]);
+    const int splits = split_by_covariance(cut, s.panel, s.n_panels, max_energy, max_panels, params);
+    if (splits > 0) s.seams = collect_seams(cut, s.panel);
+    const std::vector<double> energy = panel_energies(s);
+    for (int p = 0; p < s.n_panels; ++p)
+        if (energy[p] > max_energy) {
+            char text[160];
+            std::snprintf(text, sizeof text, "panel %d: covariance energy %.3g is above max_covariance_energy %.3g and it could not be split further",
+                          p, energy[p], max_energy);
+            s.violations.push_back(text);
+        }
     return splits;
 }
 

@@ -16,4 +16,11 @@ namespace formwork {
 int split_by_covariance(CutMesh& cut, std::vector<int>& panel, int& n_panels, double max_energy, int max_panels,
                         const SplitParams& params);
 
+/// The same for a finished segmentation: panels and seams are renewed, and each panel that stays above the
+/// threshold is added to the violations.
+int split_by_covariance(Segmentation& s, double max_energy, int max_panels, const SplitParams& params);
+
+/// Energy (15) of each panel.
+std::vector<double> panel_energies(const Segmentation& s);
+
 }  // namespace formwork

@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <map>
 
 #include "arcsim/base/text.hpp"
 #include "arcsim/mesh/obj_io.hpp"
+#include "formwork/segment/covariance_split.hpp"
 #include "formwork/segment/segment.hpp"
 #include "formwork/stages/segmentation_file.hpp"
 #include "formwork/stages/stage.hpp"
@@ -91,6 +93,8 @@ JsonValue summary_of(const SegmentInput& in, const Segmentation& s, const Segmen
     v.set("field_deviation_deg", field.deviation_deg);
     v.set("seam_length_m", seam_length(s));
     v.set("all_disks", all_disks(s));
+    const std::vector<double> energy = panel_energies(s);
+    v.set("max_panel_covariance_energy", energy.empty() ? 0.0 : *std::max_element(energy.begin(), energy.end()));
     JsonValue violations = JsonValue::array();
     for (const std::string& text : s.violations) violations.add(text);
     v.set("violations", std::move(violations));
@@ -104,8 +108,10 @@ JsonValue run_segment(const StageContext& context) {
     const SegmentInput in = read_input(context);
     context.progress.update({});
     const auto start = std::chrono::steady_clock::now();
-    const SegmentParams& params = context.scene.formwork.segment.layout;
-    const Segmentation s = segment(in.surface, in.data, params);
+    const SegmentKeys& keys = context.scene.formwork.segment;
+    const SegmentParams& params = keys.layout;
+    Segmentation s = segment(in.surface, in.data, params);
+    if (keys.max_covariance_energy > 0) split_by_covariance(s, keys.max_covariance_energy, params.max_panels, keys.split);
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     write_segmentation(context.dir / "segment", s);
     const JsonValue summary = summary_of(in, s, params, wall);

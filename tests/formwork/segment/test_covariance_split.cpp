@@ -57,3 +57,22 @@ TEST_CASE("the number of panels bounds the splits") {
     split_by_covariance(cut, panel, n_panels, 0.1, 3, {});
     CHECK(n_panels == 3);
 }
+
+TEST_CASE("a finished segmentation is split with its seams, and what stays above is named") {
+    Segmentation seg;
+    seg.mesh = dome();
+    seg.panel.assign(seg.mesh.n_faces(), 0);
+    seg.n_panels = 1;
+    CHECK(split_by_covariance(seg, 2.0, 2, {}) == 1);
+    CHECK(seg.n_panels == 2);
+    int sewn = 0, rims = 0;
+    for (const Seam& seam : seg.seams) ++(seam.is_rim() ? rims : sewn);
+    CHECK(sewn == 1);
+    CHECK(rims == 2);
+    const std::vector<double> energy = panel_energies(seg);
+    int above = 0;
+    for (double e : energy) above += e > 2.0;
+    CHECK(static_cast<int>(seg.violations.size()) == above);
+    REQUIRE(above > 0);
+    CHECK_THAT(seg.violations[0], Catch::Contains("max_covariance_energy 2"));
+}
