@@ -139,10 +139,10 @@ std::vector<int> CutMesh::insert(const Curve& curve) {
 
 std::vector<int> CutMesh::insert_seam(const Curve& curve, bool given) {
     const std::vector<int> nodes = insert(curve);
-    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-        assert(face_left(nodes[i], nodes[i + 1]) >= 0 || face_left(nodes[i + 1], nodes[i]) >= 0);
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
+        if (face_left(nodes[i], nodes[i + 1]) < 0 && face_left(nodes[i + 1], nodes[i]) < 0) return {};
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
         if (!is_rim(nodes[i], nodes[i + 1])) mark_seam(nodes[i], nodes[i + 1], given);
-    }
     return nodes;
 }
 

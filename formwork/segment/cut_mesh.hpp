@@ -53,7 +53,7 @@ public:
 
     /// Splits the faces along the curve and returns its nodes. The pieces are not marked.
     std::vector<int> insert(const Curve& curve);
-    /// insert(), and every step becomes a seam.
+    /// insert(), and every step becomes a seam. Empty, and no seam, when the curve crosses itself.
     std::vector<int> insert_seam(const Curve& curve, bool given = false);
 
     /// Puts a node inside the edge a-b, at a + t (b - a); the faces at the edge become two each.

@@ -93,9 +93,10 @@ void Layout::relabel(int panel) {
     }
 }
 
-void Layout::add_curve(const Curve& curve, bool given) {
-    cut_.insert_seam(curve, given);
+bool Layout::add_curve(const Curve& curve, bool given) {
+    const bool done = !cut_.insert_seam(curve, given).empty();
     for (int p = 0, n = static_cast<int>(panels_.size()); p < n; ++p) relabel(p);
+    return done;
 }
 
 void Layout::keep_one_side(const Vector3d& point, const Vector3d& normal) {
@@ -183,8 +184,10 @@ std::vector<Layout::Trial> Layout::try_splits(const PanelPatch& patch, const Pan
             p.a = patch.node[p.a];
             if (p.b >= 0) p.b = patch.node[p.b];
         }
+        std::vector<PanelPatch> pieces = split_pieces(patch, split.curve);
+        if (pieces.empty()) continue;
         if (q.is_disk) {
-            trial.pieces = split_pieces(patch, split.curve);
+            trial.pieces = std::move(pieces);
             for (const PanelPatch& piece : trial.pieces) {
                 trial.qualities.push_back(look_at(piece, rules.calibration));
                 trial.excess += excess(trial.qualities.back());
@@ -225,9 +228,9 @@ bool Layout::split(int panel, bool anyhow) {
                                            [&](const Trial& a, const Trial& b) { return value(a) < value(b); });
         curve = best->curve;
     }
-    cut_.insert_seam(curve);
+    const bool done = !cut_.insert_seam(curve).empty();
     relabel(panel);
-    return true;
+    return done;
 }
 
 int Layout::worst_panel() {
@@ -347,9 +350,11 @@ bool Layout::resplit(int a, int b, const Border& border) {
     flatten(best);
     if (cost(best) > 0.97 * old_cost || best.excess > old_excess + 1e-12) return false;
     for (const auto& [i, j] : border.edges) cut_.unmark_seam(i, j);
-    for (int f : faces) panel_[f] = a;
+    cut_.insert_seam(best.curve);   // if it failed, the two stay one panel, to be looked at again
+    for (int f = static_cast<int>(panel_.size()); f < cut_.surface().n_faces(); ++f) panel_.push_back(panel_[cut_.split_from(f)]);
+    for (int& p : panel_)
+        if (p == b) p = a;
     panels_[b].alive = false;
-    cut_.insert_seam(best.curve);
     relabel(a);
     return true;
 }

@@ -38,7 +38,8 @@ public:
            const SplitRules& rules, const LayoutLimits& limits, CutMesh cut);
 
     /// Makes the curve (of the cut mesh's numbering) a seam before the search; one that is `given` stays.
-    void add_curve(const Curve& curve, bool given);
+    /// @returns false, and nothing is marked, when the curve crosses itself
+    [[nodiscard]] bool add_curve(const Curve& curve, bool given);
     /// Open, refine, prune.
     void search();
     /// Leaves out of the search every panel that lies on the far side of a plane.

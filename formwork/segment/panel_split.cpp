@@ -353,7 +353,7 @@ std::optional<Split> plain_split(const PanelPatch& patch, const SurfaceField& fi
 
 std::vector<PanelPatch> split_pieces(const PanelPatch& patch, const Curve& curve) {
     CutMesh cut(patch.surface);
-    cut.insert_seam(curve);
+    if (cut.insert_seam(curve).empty()) return {};
     int n = 0;
     const std::vector<int> panel = label_panels(cut, n);
     std::vector<PanelPatch> pieces;

@@ -91,7 +91,8 @@ Segmentation finish(const Job& job, Layout& layout) {
 Segmentation free_layout(const Job& job) {
     Layout layout = job.layout(job.params.max_panels);
     for (std::size_t i = 0; i < job.strokes.size(); ++i)
-        layout.add_curve(stroke_curve(layout, job.strokes[i], static_cast<int>(i)), true);
+        if (!layout.add_curve(stroke_curve(layout, job.strokes[i], static_cast<int>(i)), true))
+            throw arcsim::InputError("segment: stroke " + std::to_string(i + 1) + " crosses itself. Draw it as several strokes.");
     layout.search();
     return finish(job, layout);
 }
@@ -102,7 +103,7 @@ std::optional<Segmentation> mirrored_layout(const Job& job, const MirrorPlane& p
     for (Curve& curve : plane_curves(job.s, job.topology, plane.point, plane.normal)) {
         snap_curve(job.topology, curve, 0.22);
         if (curve.size() < 3) return {};
-        half.add_curve(curve, false);
+        if (!half.add_curve(curve, false)) return {};
     }
     half.keep_one_side(plane.point, plane.normal);
     half.search();
