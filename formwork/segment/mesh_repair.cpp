@@ -35,6 +35,11 @@ public:
     }
 
     RepairedMesh run() {
+        for (int v = 0; v < s_.n_nodes(); ++v) {   // edges split between moved nodes: back onto the surface
+            if ((point_at(input_, source_[v]) - s_.x[v]).squaredNorm() < 1e-24) continue;
+            source_[v] = nearest_point(input_, topology_, source_[v].face, s_.x[v]);
+            s_.x[v] = point_at(input_, source_[v]);
+        }
         for (int round = 0; round < rounds; ++round) {
             if (round < rounds - 1) slide_seams();
             bool changed = false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "formwork/segment/mesh_repair.hpp"
@@ -9,9 +10,42 @@
 
 namespace formwork {
 
+Surface settle_on_plane(const Surface& s, const Topology& t, const Vector3d& point, const Vector3d& normal,
+                        std::vector<SurfacePoint>& source) {
+    constexpr double reach = 0.25;   // of a node's shortest edge
+    Surface moved = s;
+    source = CutMesh(s).source();
+    std::vector<double> height, shortest(s.x.size(), std::numeric_limits<double>::infinity());
+    for (const Vector3d& x : s.x) height.push_back(normal.dot(x - point));
+    for (const arcsim::Edge& e : t.edges)
+        for (int v : e.node) shortest[v] = std::min(shortest[v], (s.x[e.node[0]] - s.x[e.node[1]]).norm());
+    const auto is_near = [&](int v) { return std::abs(height[v]) < reach * shortest[v]; };
+    for (int v = 0; v < s.n_nodes(); ++v) {
+        if (!is_near(v) || t.is_boundary_node(v)) continue;
+        source[v] = nearest_point(s, t, source[v].face, s.x[v] - height[v] * normal);
+        moved.x[v] = point_at(s, source[v]);
+    }
+    for (const arcsim::Edge& e : t.edges) {
+        if (!e.is_boundary() || height[e.node[0]] * height[e.node[1]] >= 0) continue;
+        const int end = is_near(e.node[0]) ? 0 : is_near(e.node[1]) ? 1 : -1;
+        if (end < 0) continue;
+        const double u = height[e.node[0]] / (height[e.node[0]] - height[e.node[1]]);
+        SurfacePoint p{e.face[0], {0, 0, 0}};
+        p.barycentric[(e.corner[0] + 1) % 3] = 1 - u;
+        p.barycentric[(e.corner[0] + 2) % 3] = u;
+        source[e.node[end]] = p;
+        moved.x[e.node[end]] = point_at(s, p);
+    }
+    return moved;
+}
+
 std::vector<Curve> plane_curves(const Surface& s, const Topology& t, const Vector3d& point, const Vector3d& normal) {
     std::vector<double> height;
-    for (const Vector3d& x : s.x) height.push_back(normal.dot(x - point));
+    const double on_plane = 0.02 * arcsim::mean_edge_length(s);   // settled nodes, but for the surface's curvature
+    for (const Vector3d& x : s.x) {
+        height.push_back(normal.dot(x - point));
+        if (std::abs(height.back()) < on_plane) height.back() = 0;
+    }
     const auto crossed = [&](int e) {
         return (height[t.edges[e].node[0]] >= 0) != (height[t.edges[e].node[1]] >= 0);
     };

@@ -5,6 +5,12 @@
 
 namespace formwork {
 
+/// The surface with its nodes next to a plane moved onto it (along the surface; rim nodes along the rim), so
+/// that a cut along the plane leaves no slivers and the halves' images do not overlap.
+/// @param source  where each node lies on the input
+Surface settle_on_plane(const Surface& s, const Topology& t, const Vector3d& point, const Vector3d& normal,
+                        std::vector<SurfacePoint>& source);
+
 /// Where a plane cuts the surface: closed curves, and curves from rim to rim.
 std::vector<Curve> plane_curves(const Surface& s, const Topology& t, const Vector3d& point, const Vector3d& normal);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 #include "arcsim/base/error.hpp"
@@ -99,9 +100,14 @@ Segmentation free_layout(const Job& job) {
 
 /// One half's layout and its mirror image; nothing when the halves do not fit.
 std::optional<Segmentation> mirrored_layout(const Job& job, const MirrorPlane& plane) {
-    Layout half = job.layout(std::max(1, job.params.max_panels / 2));
-    for (Curve& curve : plane_curves(job.s, job.topology, plane.point, plane.normal)) {
-        snap_curve(job.topology, curve, 0.22);
+    std::vector<SurfacePoint> source;
+    const Surface settled = settle_on_plane(job.s, job.topology, plane.point, plane.normal, source);
+    std::vector<int> same(settled.faces.size());
+    std::iota(same.begin(), same.end(), 0);
+    Layout half(job.s, job.field.theta, job.data, job.rules, {std::max(1, job.params.max_panels / 2)},
+                CutMesh(job.s, settled, std::move(source), std::move(same)));
+    for (Curve& curve : plane_curves(settled, job.topology, plane.point, plane.normal)) {
+        snap_curve(job.topology, curve, 0.1);
         if (curve.size() < 3) return {};
         if (!half.add_curve(curve, false)) return {};
     }

@@ -26,7 +26,7 @@ struct SegmentParams {
     int max_panels = 24;
     double max_distortion = 0.05;
     double min_width = 0.03;       // m
-    Symmetry symmetry = Symmetry::off;
+    Symmetry symmetry = Symmetry::detect;
     ConstraintParams constraints;  // strokes are seams too, and never removed
     int threads = 0;
 };

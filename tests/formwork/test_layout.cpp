@@ -208,3 +208,22 @@ TEST_CASE("the layout's arcs bound its panels") {
     CHECK(steps == sides);
     CHECK(area == Approx(arcsim::total_area(r.mesh)));
 }
+
+TEST_CASE("a mirror plane of the surface becomes a mirror plane of the layout") {
+    Surface s = icosphere(4, 0.5);
+    for (Vector3d& x : s.x) x = Vector3d(0.5 * x.x(), 0.8 * x.y() + 0.3 * x.x() * x.x(), x.z() + 0.5 * x.y() * x.y());   // x -> -x only
+    const Segmentation r = segment(s, along(s, {0, 0, 1}, 0.3), {});
+    check_promises(s, r);
+    REQUIRE(r.violations.empty());
+    // Each layout node has its image among the layout nodes.
+    std::vector<Vector3d> ends;
+    for (const Seam& seam : r.seams)
+        if (!seam.is_loop())
+            for (int v : {seam.nodes.front(), seam.nodes.back()}) ends.push_back(r.mesh.x[v]);
+    const double reach = 0.6 * arcsim::mean_edge_length(s);
+    for (const Vector3d& x : ends) {
+        double least = 1;
+        for (const Vector3d& y : ends) least = std::min(least, (Vector3d(-x.x(), x.y(), x.z()) - y).norm());
+        CHECK(least < reach);
+    }
+}
