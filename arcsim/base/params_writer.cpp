@@ -13,6 +13,7 @@ void ParamsWriter::value(const Field& f, double& v) {
 
 void ParamsWriter::value(const Field& f, InputFile& v) {
     namespace fs = std::filesystem;
+    if (v.name.empty()) return;   // not given: an empty name would not read back
     std::string name = v.name;
     if (!base_.empty() && !v.path.empty()) {
         std::error_code error;
