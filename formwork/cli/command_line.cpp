@@ -35,6 +35,7 @@ int run_command_line(int argc, char** argv) {
     add_show_command(app, session);
     add_compare_command(app, session);
     add_sweep_command(app, session);
+    add_study_commands(app, session);
     try {
         app.parse(argc, argv);   // the chosen command's callback does the work
     } catch (const CLI::ParseError& e) {

@@ -43,6 +43,7 @@ void add_mesh_command(CLI::App& app, Session& session);
 void add_show_command(CLI::App& app, Session& session);
 void add_compare_command(CLI::App& app, Session& session);
 void add_sweep_command(CLI::App& app, Session& session);
+void add_study_commands(CLI::App& app, Session& session);   // tensile, fit
 
 /// "formwork 0.1.0" and what it was built with and runs on.
 std::string version_text();

@@ -6,6 +6,7 @@
 
 #include "formwork/equilibrium/solver_params.hpp"
 #include "formwork/fabric/material_params.hpp"
+#include "formwork/fabric/tensile_params.hpp"
 #include "formwork/load/plaster_params.hpp"
 #include "formwork/scene/bag_mesh.hpp"
 #include "formwork/scene/fixed_selector.hpp"
@@ -56,6 +57,8 @@ struct FormworkParams {
     SegmentKeys segment;
     PanelParams panels;
     std::optional<SewParams> sew;
+    std::optional<TensileParams> tensile;
+    std::optional<FitParams> fit;
     ReportParams report;
 };
 template <class Archive>
@@ -71,6 +74,8 @@ void visit(Archive& a, FormworkParams& p) {
     a.nested("segment", p.segment, "Second stage: seams and panels.");
     a.nested("panels", p.panels, "Third stage: flat cutting patterns.");
     a.nested("sew", p.sew, "Fourth stage: the sewn bag of woven fabric, filled again.");
+    a.nested("tensile", p.tensile, "The tensile test of the fabric: formwork tensile.");
+    a.nested("fit", p.fit, "A stiffness table from measured curves: formwork fit.");
     a.nested("report", p.report, "The report.");
 }
 

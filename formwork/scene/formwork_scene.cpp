@@ -71,7 +71,8 @@ FormworkScene read_scene(const std::filesystem::path& file, const SceneOptions& 
     std::erase_if(scene.warnings, [](const std::string& w) {
         return w.find(": /$schema: ") != std::string::npos || w.find(": /expect: ") != std::string::npos;
     });
-    if (scene.root.cloths.empty())
+    const bool needs_mesh = !scene.formwork.tensile && !scene.formwork.fit;   // strips make their own
+    if (scene.root.cloths.empty() && needs_mesh)
         throw InputError(scene.source + ": /cloths: names no mesh. Add \"cloths\": [{\"mesh\": \"bag.obj\"}].");
     if (scene.root.cloths.size() > 1 && scene.has_formwork)
         throw InputError(scene.source + ": /cloths: a formwork scene has one cloth, got " + std::to_string(scene.root.cloths.size()) +

@@ -18,6 +18,7 @@ struct SparseLu::Factors {
 
 SparseLu::SparseLu() : factors_(std::make_unique<Factors>()) {}
 SparseLu::~SparseLu() = default;
+SparseLu::SparseLu(SparseLu&&) noexcept = default;
 
 bool SparseLu::factorize(const Eigen::SparseMatrix<double>& A) {
     Factors& f = *factors_;

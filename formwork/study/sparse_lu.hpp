@@ -12,6 +12,7 @@ class SparseLu {
 public:
     SparseLu();
     ~SparseLu();
+    SparseLu(SparseLu&&) noexcept;
     /// The pattern is analysed once; later matrices must have the same one.
     /// @returns false when A is singular
     bool factorize(const Eigen::SparseMatrix<double>& A);

@@ -33,7 +33,17 @@ Stiffening stiffening(const Vector3d& G, double full_strain) {
     return {s, Vector3d(1 + c, 1 - c, 2 * d) * (0.5 / (root * full_strain))};
 }
 
+constexpr double largest_coupling = 0.9;   // of sqrt(k_uu k_vv)
+
 }  // namespace
+
+void TableStripLaw::make_stable(std::vector<double>& p) const {
+    for (int row = 0; row < 6; ++row)
+        p[4 * row + 1] = std::min(p[4 * row + 1], largest_coupling * std::sqrt(p[4 * row] * p[4 * row + 2]));
+}
+void IsotropicStripLaw::make_stable(std::vector<double>& p) const {
+    for (int row = 0; row < 2; ++row) p[2 * row + 1] = std::min(p[2 * row + 1], largest_coupling * p[2 * row]);
+}
 
 TableStripLaw::TableStripLaw(const arcsim::StretchingRows& rows, double factor, double max_stretch)
     : rows_(rows), factor_(factor), full_strain_(max_stretch - 1) {}

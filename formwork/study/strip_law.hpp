@@ -36,6 +36,8 @@ public:
     virtual std::string parameter_name(int j) const = 0;
     virtual std::vector<double> parameters() const = 0;
     virtual std::unique_ptr<StripLaw> with(const std::vector<double>& p) const = 0;
+    /// Moves entries to the nearest stable fabric: k_uv below sqrt(k_uu k_vv) in every row.
+    virtual void make_stable(std::vector<double>& p) const = 0;
 };
 
 /// The tensor law S = K(G) G with ArcSim's table evaluated exactly (SYSTEM rows 2, 3 and 12), compression
@@ -51,7 +53,7 @@ public:
     std::string parameter_name(int j) const override;
     std::vector<double> parameters() const override;
     std::unique_ptr<StripLaw> with(const std::vector<double>& p) const override;
-    const arcsim::StretchingRows& rows() const { return rows_; }
+    void make_stable(std::vector<double>& p) const override;
 
 private:
     arcsim::StretchingRows rows_;
@@ -69,6 +71,7 @@ public:
     std::string parameter_name(int j) const override;
     std::vector<double> parameters() const override { return {p_.begin(), p_.end()}; }
     std::unique_ptr<StripLaw> with(const std::vector<double>& p) const override;
+    void make_stable(std::vector<double>& p) const override;
 
 private:
     std::array<double, 4> p_;   // uu rest, uv rest, uu max, uv max
