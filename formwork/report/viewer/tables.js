@@ -178,7 +178,7 @@ const Page = (() => {
   function model(scene, notes) {
     const f = scene && scene.formwork ? scene.formwork : {}, inflate = f.inflate || {}, sew = f.sew || {};
     const material = m => !m ? '' : m.model === 'isotropic' ? 'an isotropic table in the frame of the principal strains' :
-                           m.model === 'tensor' ? `the orthotropic tensor${m.data && typeof m.data === 'string' ? ' of ' + m.data : ''}` : String(m.model || '');
+                           m.model === 'tensor' ? `the orthotropic tensor${m.data && typeof m.data === 'string' ? ' of ' + m.data.split('/').pop() : ''}` : String(m.model || '');
     const list = (heading, lines) => element('div', {}, element('h3', {}, heading), element('ul', {}, ...lines.filter(Boolean).map(l => element('li', {}, l))));
     const fabric = inflate.material || inflate.fabric;
     const compression = fabric && fabric.compression;

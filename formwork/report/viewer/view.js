@@ -82,9 +82,26 @@ const View = (() => {
       const valence = 4 - s.index4, title = `singularity of valence ${valence}, index ${s.index4 > 0 ? '+' : '\u2212'}${Math.abs(s.index4)}/4`;
       return label('mark', valence, title, s.index4 > 0 ? '#c24a05' : '#0d5cab', [s.node]);
     });
-    Data.labelFaces.forEach((f, p) => {
-      if (f >= 0 && Data.panels[p]) marks.push(label('tag', Data.panels[p].name, '', null, Array.from(Data.faces.slice(3 * f, 3 * f + 3))));
+    // A panel's name may stand at any of these places of it: about forty faces, with the room around each.
+    Data.labelFaces.forEach((widest, p) => {
+      if (widest < 0 || !Data.panels[p]) return;
+      const own = [], x = Data.shapes[0].x, border = Data.neighbours[p].flatMap(n => Data.seams[n.seam].nodes);
+      Data.panelOfFace.forEach((q, f) => { if (q === p) own.push(f); });
+      const places = own.filter((f, i) => f === widest || i % Math.ceil(own.length / 40) === 0).map(f => {
+        const i = 3 * Data.faces[3 * f];
+        return {node: Data.faces[3 * f], room: Math.min(...border.map(b => Math.hypot(x[3 * b] - x[i], x[3 * b + 1] - x[i + 1], x[3 * b + 2] - x[i + 2])))};
+      });
+      marks.push({...label('tag', Data.panels[p].name, '', null, [places[0].node]), places});
     });
+    // Moves a name to the place of its panel that the viewer sees best.
+    function seekPlace(m) {
+      let best = 0;
+      for (const {node, room} of m.places) {
+        const i = 3 * node, at = [0, 1, 2].map(k => state.x[i + k]), eye = camera.position.toArray().map((v, k) => v - at[k]);
+        const rank = room * eye.reduce((s, v, k) => s + v * state.normal[i + k], 0) / Math.hypot(...eye);
+        if (rank > best) { best = rank; m.at = [node]; }
+      }
+    }
     const place = m => new THREE.Vector3(...[0, 1, 2].map(k => m.at.reduce((s, i) => s + state.x[3 * i + k] / m.at.length, 0)));
 
     function updateShape() {
@@ -168,6 +185,7 @@ const View = (() => {
 
     function placeMarks() {
       for (const m of marks) {
+        if (m.places && state.labels.tag) seekPlace(m);
         const v = place(m).project(camera);
         m.node.style.left = (v.x + 1) / 2 * box.clientWidth + 'px';
         m.node.style.top = (1 - v.y) / 2 * box.clientHeight + 'px';
