@@ -2,6 +2,7 @@
 #include "arcsim/base/text.hpp"
 #include "arcsim/mesh/obj_io.hpp"
 #include "formwork/equilibrium/equilibrium.hpp"
+#include "formwork/load/cast_solid.hpp"
 #include "formwork/mesher/mesh_file.hpp"
 #include "formwork/stages/equilibrium_summary.hpp"
 #include "formwork/stages/stage.hpp"
@@ -61,6 +62,8 @@ arcsim::JsonValue run_inflate(const StageContext& context) {
     arcsim::write_obj(folder / "inflated.obj", deformed_mesh(mesh, problem, result.x));
     arcsim::write_obj(folder / "rest.obj", deformed_mesh(mesh, problem, mesh.surface.x));
     write_strain(folder, result.strain);
+    if (result.volume_m3 > 0)
+        write_stl(folder / "cast.stl", cast_solid({result.x, problem.rest.faces}, problem.up, result.fill_level_m, result.orientation), "cast");
     std::error_code ignored;
     std::filesystem::remove(folder / "not_converged.obj", ignored);   // ours, of an earlier attempt
     context.progress.end("inflate: " + std::to_string(result.iterations) + " steps, residual " + format_short(result.residual, 2) + ", depth " +

@@ -1,5 +1,6 @@
 #include "arcsim/base/text.hpp"
 #include "arcsim/mesh/obj_io.hpp"
+#include "formwork/load/cast_solid.hpp"
 #include "formwork/mesher/mesh_file.hpp"
 #include "formwork/sew/sew.hpp"
 #include "formwork/stages/equilibrium_summary.hpp"
@@ -66,6 +67,9 @@ JsonValue run_sew(const StageContext& context) {
     const std::filesystem::path folder = context.dir / "sew";
     arcsim::write_obj(folder / "sewn.obj", mesh_with_rest(r.equilibrium.x, r.bag.cut.faces, r.bag.flat));
     write_strain(folder, r.equilibrium.strain);
+    if (r.equilibrium.volume_m3 > 0)
+        write_stl(folder / "cast.stl",
+                  cast_solid({r.equilibrium.x, r.bag.cut.faces}, scene.formwork.up, r.equilibrium.fill_level_m, r.equilibrium.orientation), "cast");
     write_sew_tables(folder, r, s);
     JsonValue v = equilibrium_summary(r.equilibrium);
     add_sew_summary(r, v);
