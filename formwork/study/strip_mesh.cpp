@@ -26,7 +26,7 @@ std::vector<double> graded(int n, double end_ratio) {
 StripMesh make_strip(double length, double width, int cells_across) {
     if (!(length > 0) || !(width > 0) || cells_across < 2)
         throw arcsim::InputError("strip: length and width must be positive and the resolution at least 2");
-    constexpr double end_ratio = 0.12;
+    constexpr double end_ratio = 0.25;
     const int ny = cells_across;
     const int nx = std::max(2, static_cast<int>(std::lround(ny * length / width)));
     const std::vector<double> tx = graded(nx, end_ratio), ty = graded(ny, end_ratio);

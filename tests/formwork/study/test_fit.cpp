@@ -18,8 +18,8 @@ std::vector<MeasuredCurve> synthetic(double noise) {
     TensileParams t;
     t.material.data = table3();
     t.max_strain = 0.08;
-    t.steps = 6;
-    t.resolution = 3;
+    t.steps = 5;
+    t.resolution = 2;
     std::mt19937 random(3);
     std::normal_distribution<double> normal;
     std::vector<MeasuredCurve> curves;
@@ -36,8 +36,8 @@ std::vector<MeasuredCurve> synthetic(double noise) {
 
 FitParams params() {
     FitParams p;
-    p.resolution = 3;
-    p.points_per_curve = 6;
+    p.resolution = 2;
+    p.points_per_curve = 5;
     p.noise_floor_N = 1e-6;
     return p;
 }
@@ -84,8 +84,9 @@ TEST_CASE("an isotropic table is recovered from curves without noise") {
     }
     const FitResult r = fit_table(p, {c}, start_from_slopes(p, {c}));
     CHECK(r.chi2_per_point < 1e-2);
-    CHECK(r.entries[0].value == Approx(300).epsilon(0.02));
-    CHECK(r.entries[2].value == Approx(600).epsilon(0.02));
+    const double wanted[] = {300, 60, 600, 90};
+    for (int j = 0; j < 4; ++j) CHECK(std::abs(r.entries[j].value - wanted[j]) < r.entries[j].deviation);
+    CHECK_FALSE(r.entries[1].determined);   // one strip cannot tell k_uv from k_uu
 }
 
 TEST_CASE("measured curves are read by angle, and a bad line is named") {

@@ -36,7 +36,7 @@ TableStripLaw table3() {
 
 }  // namespace
 
-TEST_CASE("a strip between clamps pulls as the reference solutions say (B2, about 1000 nodes)") {
+TEST_CASE("a strip between clamps pulls as the reference solutions say (B2, 1000 to 1700 nodes)") {
     struct Case {
         Row rest, strained;
         double angle, strain, force, half_width, tolerance;
@@ -53,7 +53,9 @@ TEST_CASE("a strip between clamps pulls as the reference solutions say (B2, abou
                           {woven_rest, woven_max, 0, 0.05, 143.30287, 0.0099919886, 1e-5, 1}};
     for (const Case& c : cases) {
         double half_width = 0;
-        const StripState s = pull(law_of(c.rest, c.strained), c.angle, c.strain, 8, c.increments, &half_width);
+        // Off the axes the corners of the clamps are more singular.
+        const int cells = c.angle == 0 || c.angle == 90 ? 8 : 10;
+        const StripState s = pull(law_of(c.rest, c.strained), c.angle, c.strain, cells, c.increments, &half_width);
         INFO("angle " << c.angle << " strain " << c.strain);
         CHECK(s.force == Approx(c.force).epsilon(c.tolerance));
         CHECK(half_width == Approx(c.half_width).epsilon(c.tolerance));
