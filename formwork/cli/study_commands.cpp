@@ -90,14 +90,14 @@ void fit(const SceneArguments& a, Session& session) {
 void add_study_commands(CLI::App& app, Session& session) {
     auto pulled = std::make_shared<SceneArguments>();
     CLI::App* command = add_command(app, session, "tensile", "Pull strips of the fabric between clamps: force against displacement",
-                                    "  formwork tensile conf/tensile.json -o out/tensile          five strips, CSV and PNG; mm and N\n"
-                                    "  formwork tensile conf/tensile.json --set tensile.max_strain=0.1");
+                                    "  formwork tensile conf/studies/tensile.json -o out/tensile          five strips, CSV and PNG; mm and N\n"
+                                    "  formwork tensile conf/studies/tensile.json --set tensile.max_strain=0.1");
     add_scene_arguments(command, *pulled, true);
     command->callback([pulled, &session] { tensile(*pulled, session); });
     auto fitted = std::make_shared<SceneArguments>();
     command = add_command(app, session, "fit", "Estimate a fabric's stiffness table from measured force-displacement curves",
-                          "  formwork fit conf/fit.json -o out/fit       mm and N in, N/m out\n"
-                          "  formwork fit conf/fit.json --set fit.noise=0.02");
+                          "  formwork fit conf/studies/fit.json -o out/fit       mm and N in, N/m out\n"
+                          "  formwork fit conf/studies/fit.json --set fit.noise=0.02");
     add_scene_arguments(command, *fitted, true);
     command->callback([fitted, &session] { fit(*fitted, session); });
 }

@@ -19,6 +19,12 @@ void visit(arcsim::Archive& a, FormworkScene& s) {
     a.nested("formwork", s.formwork, "What this program does beyond a cloth simulation.");
 }
 
+const arcsim::InputFile& FormworkScene::mesh_file() const {
+    if (root.cloths.empty())
+        throw InputError(source + ": /cloths: names no mesh; this scene is for the commands tensile and fit. Add \"cloths\": [{\"mesh\": \"bag.obj\"}].");
+    return root.cloths.front().mesh;
+}
+
 const PlasterParams& FormworkScene::plaster() const {
     if (!formwork.plaster)
         throw InputError(source + ": /formwork/plaster is missing: this stage fills the bag. Add \"plaster\": {\"density\": 1500, \"fill\": {\"depth_below_rim\": 0}}.");
@@ -87,6 +93,7 @@ FormworkScene read_scene(const std::filesystem::path& file, const SceneOptions& 
 }
 
 BagMesh load_bag_mesh(const FormworkScene& scene) {
+    scene.mesh_file();   // there is one
     const arcsim::ClothParams& cloth = scene.root.cloths.front();
     const FormworkParams& p = scene.formwork;
     const std::string name = cloth.mesh.path.string();

@@ -19,7 +19,8 @@ struct FormworkScene {
     bool has_formwork = false;
     std::vector<std::string> warnings;
 
-    const arcsim::InputFile& mesh_file() const { return root.cloths.front().mesh; }
+    /// @throws InputError: a scene of strips alone names no mesh
+    const arcsim::InputFile& mesh_file() const;
     /// "column" of conf/column.json: names things after the scene.
     std::string name() const { return std::filesystem::path(source).stem().string(); }
     /// The liquid, or an error that names the missing key: for stages that need it.
