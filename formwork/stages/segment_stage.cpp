@@ -62,8 +62,7 @@ bool all_disks(const Segmentation& s) {
         Surface piece{s.mesh.x, {}};
         for (int f = 0; f < s.mesh.n_faces(); ++f)
             if (s.panel[f] == p) piece.faces.push_back(s.mesh.faces[f]);
-        // A dart makes the piece an annulus of its own nodes only after cutting; what counts is that it hangs together.
-        if (piece.faces.empty() || !arcsim::find_defects(piece).nonmanifold_edges.empty()) return false;
+        if (piece.faces.empty() || !arcsim::find_defects(piece).empty()) return false;   // pinched at a node, for one
         const Topology t = arcsim::build_topology(piece);
         if (t.n_components != 1 || t.euler_characteristic() != 1) return false;
     }
