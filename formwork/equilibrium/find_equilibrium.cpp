@@ -256,6 +256,10 @@ private:
 }  // namespace
 
 EquilibriumResult find_equilibrium(const EquilibriumProblem& problem) {
+    if (problem.solver.method != SolverMethod::static_newton)
+        throw arcsim::InputError("solver/method: \"" +
+                                 std::string(arcsim::name_of(solver_method_names, problem.solver.method)) +
+                                 "\" is not available for filled bags in this version. Use \"static\".");
     const auto wall = std::chrono::steady_clock::now();
     const double cpu = arcsim::cpu_seconds();
     Run run(problem);
