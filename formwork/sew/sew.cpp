@@ -16,6 +16,7 @@ GrainVariant run_variant(const std::string& name, const SewInput& input, const S
     SewnBag bag = aligned.bag;
     bag.flat = turn_grain(bag.flat, input.segmentation.panel, input.segmentation.n_panels, name, params.seed);
     EquilibriumProblem problem = sewn_problem(input, params, bag);
+    problem.start = aligned.equilibrium.x;   // of all known shapes the nearest
     if (on_iteration) problem.on_iteration = [&](const IterationReport& r) { on_iteration(name, r); };
     try {
         const EquilibriumResult r = find_equilibrium(problem);
