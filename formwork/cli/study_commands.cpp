@@ -36,6 +36,7 @@ void finish(const Study& s, const char* name, arcsim::JsonValue figures) {
 
 void tensile(const SceneArguments& a, Session& session) {
     arcsim::Progress progress(session.verbosity());
+    progress.begin("tensile");
     const Study s = open(a, progress);
     if (!s.scene.formwork.tensile)
         throw arcsim::InputError(s.scene.source + ": /formwork/tensile is missing. Add \"tensile\": {\"material\": {\"model\": \"tensor\", \"data\": \"woven.json\"}}.");
@@ -55,6 +56,7 @@ void tensile(const SceneArguments& a, Session& session) {
 
 void fit(const SceneArguments& a, Session& session) {
     arcsim::Progress progress(session.verbosity());
+    progress.begin("fit");
     const Study s = open(a, progress);
     if (!s.scene.formwork.fit)
         throw arcsim::InputError(s.scene.source + ": /formwork/fit is missing. Add \"fit\": {\"measured\": \"curves.csv\"}.");
