@@ -56,6 +56,7 @@ struct Job {
 /// The layout's cut mesh, mended, with everything that the next stages ask for.
 Segmentation finish(const Job& job, Layout& layout) {
     Segmentation r;
+    r.field = job.field;
     r.singularities = find_singularities(job.s, job.topology, job.field);
     const CutMesh& before = layout.cut();
     std::vector<int> singular;

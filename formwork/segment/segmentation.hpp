@@ -36,6 +36,7 @@ struct Segmentation {
     std::vector<DirectionData> direction;   // per face of `mesh`: target of the weave
     std::vector<double> field_theta;        // per face of `mesh`: one arm of the smoothed field, from edge v0->v1
     std::vector<Singularity> singularities; // nodes of `mesh`
+    CrossField field;                       // the smoothed field, on the input mesh; not read back from files
     std::vector<std::string> violations;    // bounds that this layout does not meet, one line each; empty: valid
 };
 

@@ -69,10 +69,10 @@ bool all_disks(const Segmentation& s) {
     return true;
 }
 
-JsonValue summary_of(const SegmentInput& in, const Segmentation& s, const SegmentParams& params, double wall) {
+JsonValue summary_of(const SegmentInput& in, const Segmentation& s, double wall) {
     // Figures of the field are those on the mesh that was given, before seams split its faces.
     const Topology t = arcsim::build_topology(in.surface);
-    const CrossField field = smooth_cross_field(in.surface, t, in.data, params.field);
+    const CrossField& field = s.field;
     const std::vector<Singularity> found = find_singularities(in.surface, t, field);
     std::map<std::string, int> counts;
     int sum4 = 0;
@@ -113,7 +113,7 @@ JsonValue run_segment(const StageContext& context) {
     if (keys.max_covariance_energy > 0) split_by_covariance(s, keys.max_covariance_energy, params.max_panels, keys.split);
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     write_segmentation(context.dir / "segment", s);
-    const JsonValue summary = summary_of(in, s, params, wall);
+    const JsonValue summary = summary_of(in, s, wall);
     context.progress.end("segment: " + std::to_string(s.n_panels) + " panels, " + std::to_string(s.singularities.size()) + " singularities, " +
                          arcsim::format_short(summary.find("seam_length_m")->number) + " m of seams, " + arcsim::format_duration(wall));
     for (const std::string& text : s.violations) context.progress.warning("segment: " + text);
