@@ -37,28 +37,55 @@ LargestStretch largest_stretch(const Vector3d& G) {
     return r;
 }
 
+/// The direction's say in [0, 1], and its derivative by G.
+struct DirectionShare {
+    double share = 1;
+    Vector3d slope = Vector3d::Zero();
+};
+
+/// A smooth step in (e1 - e2) / e1 of the principal Green strains: none where they are equal, all where e2 <= e1 / 2.
+DirectionShare direction_share(const Vector3d& G) {
+    constexpr double full_say_at = 0.5;
+    const double d = G[0] - G[1], apart = std::hypot(d, 2 * G[2]);   // e1 - e2
+    const double e1 = 0.5 * (G[0] + G[1] + apart), width = full_say_at * e1;
+    DirectionShare r;
+    if (apart >= width) return r;
+    const double t = apart / width;
+    r.share = t * t * (3 - 2 * t);
+    if (apart == 0) return r;
+    const Vector3d d_apart(d / apart, -d / apart, 4 * G[2] / apart);
+    const Vector3d d_e1 = 0.5 * (Vector3d(1, 1, 0) + d_apart);
+    r.slope = 6 * t * (1 - t) * (d_apart / width - t / e1 * d_e1);
+    return r;
+}
+
 }  // namespace
 
 StiffnessSample interpolate_stiffness(const StretchingRows& rows, const Vector3d& G, double full_strain,
-                                      double factor, double largest_s) {
+                                      double factor, EqualStretches equal) {
     const LargestStretch stretch = largest_stretch(G);
-    constexpr double below_four = 4 - 1e-6;   // ArcSim's clamp
+    const bool blend = equal == EqualStretches::blend;
+    constexpr double below_one = 1 - 1e-6, below_four = 4 - 1e-6;   // ArcSim's clamps
     const double root = std::sqrt(std::max(stretch.l1, 0.0));
     const double s_free = (root - 1) / full_strain;
-    const double s = std::clamp(s_free, 0.0, largest_s);
+    const double s = std::clamp(s_free, 0.0, blend ? 1 : below_one);
     const double a_free = stretch.phi * columns_per_radian;
     const double a = std::clamp(a_free, 0.0, below_four);
     const int column = static_cast<int>(a);
     const double f = a - column;
 
-    const Stiffness4 strained = (1 - f) * rows[1 + column] + f * rows[2 + column];
+    const Stiffness4 directed = (1 - f) * rows[1 + column] + f * rows[2 + column];
+    const Stiffness4 mean = 0.25 * (0.5 * rows[1] + rows[2] + rows[3] + rows[4] + 0.5 * rows[5]);
+    const DirectionShare w = blend ? direction_share(G) : DirectionShare{};
+    const Stiffness4 strained = w.share * directed + (1 - w.share) * mean;
     const Stiffness4 value = (1 - s) * rows[0] + s * strained;
     const Vector3d ds = s == s_free ? Vector3d(stretch.dl1 * (0.5 / (root * full_strain))) : Vector3d::Zero();
     const Vector3d da = columns_per_radian * stretch.dphi;
     StiffnessSample r;
     r.k = factor * value.cwiseMax(0.0);
     r.dk_dG = factor * ((strained - rows[0]) * ds.transpose() +
-                        s * (rows[2 + column] - rows[1 + column]) * da.transpose());
+                        s * (w.share * (rows[2 + column] - rows[1 + column]) * da.transpose() +
+                             (directed - mean) * w.slope.transpose()));
     for (int entry = 0; entry < 4; ++entry)
         if (value[entry] < 0) r.dk_dG.row(entry).setZero();
     return r;
@@ -73,7 +100,7 @@ StiffnessTable::StiffnessTable(const StretchingRows& rows, Sampling sampling, do
             for (int k = 0; k < n; ++k) {
                 const Vector3d G(grid_min + i * grid_step, grid_min + j * grid_step, k * grid_step);
                 grid_[(i * n + j) * n + k] =
-                    multiplier * interpolate_stiffness(rows, G, full_strain, file_factor, arcsim_largest_s).k;
+                    multiplier * interpolate_stiffness(rows, G, full_strain, file_factor, EqualStretches::jump).k;
             }
 }
 

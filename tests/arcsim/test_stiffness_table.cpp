@@ -69,7 +69,7 @@ TEST_CASE("the derivative of the stiffness by the strain is the limit of its dif
         const StiffnessTable table(woven(), sampling, 1.5);
         // States off the kinks: grid lines, columns of 22.5 degrees.
         for (const Vector3d& G : {Vector3d(0.051, 0.012, 0.021), Vector3d(0.011, 0.073, -0.032), Vector3d(-0.1, 0.03, 0.004),
-                                 Vector3d(-0.1, -0.07, 0.001), Vector3d(0.9, 0.11, 0.21)}) {
+                                 Vector3d(-0.1, -0.07, 0.001), Vector3d(0.9, 0.11, 0.21), Vector3d(0.051, 0.047, 0.003)}) {
             const StiffnessSample s = table.sample(G);
             CHECK((s.k - table.k(G)).norm() <= 1e-9 * s.k.norm());
             for (int axis = 0; axis < 3; ++axis) {
@@ -80,6 +80,19 @@ TEST_CASE("the derivative of the stiffness by the strain is the limit of its dif
             }
         }
     }
+}
+
+TEST_CASE("the directly sampled stiffness is continuous where the principal stretches are equal") {
+    const StiffnessTable table(woven(), Sampling::exact);
+    const Stiffness4 middle = table.k({0.05, 0.05, 0});
+    for (int i = 0; i < 16; ++i) {
+        const double a = 2 * std::numbers::pi * i / 16, e = 1e-7;
+        const Vector3d G(0.05 + e * std::cos(a), 0.05 - e * std::cos(a), e * std::sin(a));
+        CHECK((table.k(G) - middle).norm() < 1e-5 * middle.norm());
+    }
+    // Where one direction alone is strained the rule is the plain interpolation.
+    for (const Vector3d& G : {Vector3d(0.06, 0.02, 0.01), Vector3d(0.05, -0.03, 0.02)})
+        CHECK(table.k(G) == interpolate_stiffness(woven(), G, StiffnessTable::full_strain, 2, EqualStretches::jump).k);
 }
 
 TEST_CASE("negative interpolated stiffness is cut at zero and the sign of the shear does not matter") {
