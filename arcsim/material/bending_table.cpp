@@ -11,6 +11,13 @@ BendingTable::BendingTable(const BendingRows& rows, double multiplier) : rows_(r
         for (double& value : row) value *= multiplier;
 }
 
+bool BendingTable::is_zero() const {
+    for (const auto& row : rows_)
+        for (const double value : row)
+            if (value != 0) return false;
+    return true;
+}
+
 double BendingTable::direction(const Vector2d& e) {
     const double d = 4 * std::abs(std::atan2(e.y(), e.x())) / std::numbers::pi;
     return d > 2 ? 4 - d : d;

@@ -25,6 +25,9 @@ public:
     };
     Sample sample(double direction, double c) const;
 
+    /// No fold resists: such hinges are left out of the model.
+    bool is_zero() const;
+
     /// 4 |angle of e| / pi folded to 0..2, so that 0, 1, 2 are edges at 0, 45, 90 degrees to u.
     static double direction(const Vector2d& e);
 

@@ -82,7 +82,7 @@ int vert_at(const ClothMesh& mesh, int face, int node) {
     return -1;
 }
 
-std::vector<Hinge> hinges(const ClothMesh& mesh, const ClothParams& cloth) {
+std::vector<Hinge> hinges(const ClothMesh& mesh, const ClothParams& cloth, const std::vector<BendingTable>& tables) {
     std::map<std::pair<int, int>, const EdgeRecord*> records;
     for (const EdgeRecord& e : mesh.edges) records[std::minmax(e.node[0], e.node[1])] = &e;
     std::vector<Hinge> result;
@@ -106,7 +106,8 @@ std::vector<Hinge> hinges(const ClothMesh& mesh, const ClothParams& cloth) {
         }
         const double weakening = std::max(cloth.materials[h.material[0]].weakening, cloth.materials[h.material[1]].weakening);
         h.softening = 1 + weakening * damage;
-        if (h.area > 0 && h.length > 0) result.push_back(h);   // nothing bends between faces without area
+        const bool resists = !tables[h.material[0]].is_zero() || !tables[h.material[1]].is_zero();
+        if (resists && h.area > 0 && h.length > 0) result.push_back(h);   // nothing bends between faces without area
     }
     return result;
 }
@@ -162,7 +163,8 @@ ClothModel build_model(const ClothMesh& mesh, const ClothParams& cloth, const Sc
     for (double& mass : model.mass)
         if (mass == 0) mass = 1;   // nodes without faces: nothing acts on them, any mass keeps the matrix regular
     model.stretch = std::make_unique<StretchForce>(std::move(faces), std::move(tables));
-    model.bend = std::make_unique<BendForce>(hinges(mesh, cloth), std::move(bending), x);
+    std::vector<Hinge> folds = hinges(mesh, cloth, bending);
+    model.bend = std::make_unique<BendForce>(std::move(folds), std::move(bending), x);
     if (scene.magic.preserve_creases) model.bend->set_rest_angles_from(x);
     model.wind = std::make_unique<WindForce>(std::move(wind_faces), scene.wind.density, scene.wind.drag,
                                              scene.wind.velocity, x);
