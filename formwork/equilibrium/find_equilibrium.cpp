@@ -2,10 +2,11 @@
 #include <cmath>
 #include <sstream>
 
+#include "arcsim/solve/linear_solver.hpp"
 #include "formwork/equilibrium/checks.hpp"
 #include "formwork/equilibrium/equilibrium.hpp"
 #include "formwork/equilibrium/measure.hpp"
-#include "formwork/equilibrium/newton.hpp"
+#include "formwork/equilibrium/method.hpp"
 
 namespace formwork {
 namespace {
@@ -16,7 +17,8 @@ constexpr double prestress_part = 0.01;        // Tp = 0.01 T* (tension_field.md
 constexpr double residual_part = 0.5;
 constexpr double wrinkles_known_at = 1e-3;     // residual at which the wrinkled region is settled enough to judge
 constexpr int most_cap_raises = 6;             // of R each: a head over the rim beyond that is a mistake
-constexpr double allowed_effect = 8e-4;        // of the regularisation on depth and volume; the promise is 1e-3
+constexpr double allowed_part = 0.8;           // of the promised accuracy: the regularisation's effect on depth and volume
+constexpr double promised_accuracy = 1e-3;     // when no other is asked for
 constexpr double units_are_wrong = 100;        // N = rho g R² / k, STABILITY row 16
 constexpr double units_are_doubtful = 3;
 
@@ -31,7 +33,7 @@ std::string number(double v, int digits = 3) {
 class Run {
 public:
     explicit Run(const EquilibriumProblem& p)
-        : p_(p), system_(p), newton_(system_, p.solver, p.on_iteration),
+        : p_(p), system_(p), method_(make_method(system_, p)),
           x_(flatten(p.start.empty() ? p.rest.x : p.start)) {}
 
     EquilibriumResult find() {
@@ -95,14 +97,14 @@ private:
     }
 
     void solve_or_throw(double tolerance, double T0, const std::string& phase) {
-        outcome_ = newton_.solve(x_, tolerance, T0, phase);
+        outcome_ = method_->solve(x_, tolerance, T0, phase);
         for (int raised = 0; outcome_.ok() && system_.level_is_capped(); ++raised) {
             if (raised == most_cap_raises)
                 throw failure("the bag does not hold the volume asked for (" + number(system_.target_volume()) +
                               " m³): its level would stand more than " + number(most_cap_raises * system_.scales().radius) +
                               " m above the rim. Lower /formwork/plaster/fill");
             system_.raise_level_cap();
-            outcome_ = newton_.solve(x_, tolerance, 0, phase);
+            outcome_ = method_->solve(x_, tolerance, 0, phase);
         }
         if (!outcome_.ok()) explain_failure();
     }
@@ -121,12 +123,12 @@ private:
         Extent before = measure_extent(system_, x_);
         regularisation_ = {Tp, regulariser(Tp).r, 1, 1, before.depth, before.volume};
         for (int round = 0; round < 5; ++round) {
-            const double smaller = round == 0 ? 0.25 * Tp : Tp * std::max(0.25, 0.8 * allowed_effect / worst_effect());
+            const double smaller = round == 0 ? 0.25 * Tp : Tp * std::max(0.25, 0.8 * allowed_effect() / worst_effect());
             const VectorXd good = x_;
-            const NewtonOutcome good_outcome = outcome_;
+            const SolveOutcome good_outcome = outcome_;
             law.set_regulariser(regulariser(smaller));
-            newton_.allow_iterations(p_.solver.max_iterations);
-            outcome_ = newton_.solve(x_, p_.solver.tolerance, 0, "prestress " + number(smaller));
+            method_->allow_iterations(p_.solver.max_iterations);
+            outcome_ = method_->solve(x_, p_.solver.tolerance, 0, "prestress " + number(smaller));
             if (!outcome_.ok()) {   // less prestress than this mesh needs to be well posed: keep the last good one
                 x_ = good;
                 outcome_ = good_outcome;
@@ -148,7 +150,7 @@ private:
             regularisation_.volume_extrapolated_m3 = now.volume - d_volume * Tp;
             regularisation_.depth_effect = std::abs(d_depth) * Tp / std::max(std::abs(now.depth), 1e-300);
             regularisation_.volume_effect = std::abs(d_volume) * Tp / std::max(std::abs(now.volume), 1e-300);
-            if (worst_effect() <= allowed_effect) return;
+            if (worst_effect() <= allowed_effect()) return;
         }
     }
 
@@ -156,8 +158,8 @@ private:
     void estimate_from_above(const Extent& at_Tp, const Regulariser& twice) {
         VectorXd x = x_;
         system_.membrane().law().set_regulariser(twice);
-        newton_.allow_iterations(p_.solver.max_iterations);
-        if (!newton_.solve(x, 1e-6, 0, "prestress " + number(twice.Tp)).ok()) return;
+        method_->allow_iterations(p_.solver.max_iterations);
+        if (!method_->solve(x, 1e-6, 0, "prestress " + number(twice.Tp)).ok()) return;
         const Extent above = measure_extent(system_, x);
         regularisation_.depth_extrapolated_m = 2 * at_Tp.depth - above.depth;
         regularisation_.volume_extrapolated_m3 = 2 * at_Tp.volume - above.volume;
@@ -170,20 +172,27 @@ private:
         const VectorXd before = x_;
         const Regulariser regulariser = system_.membrane().law().regulariser();
         system_.membrane().law().set_regulariser({});
-        outcome_ = newton_.solve(x_, p_.solver.tolerance, 0, "final");
+        outcome_ = method_->solve(x_, p_.solver.tolerance, 0, "final");
         if (outcome_.ok() && count_wrinkles(system_.membrane(), x_).sum() == 0) return true;
-        if (!outcome_.ok()) newton_.allow_iterations(p_.solver.max_iterations);
+        if (!outcome_.ok()) method_->allow_iterations(p_.solver.max_iterations);
         x_ = before;
         system_.membrane().law().set_regulariser(regulariser);
         return false;
     }
 
+    double allowed_effect() const { return allowed_part * p_.solver.accuracy.value_or(promised_accuracy); }
     double worst_effect() const { return std::max(regularisation_.depth_effect, regularisation_.volume_effect); }
 
     /// Tells ballooning from a solver that lost its way: looks for the largest part of the load that has an equilibrium.
     /// Bounded: three load steps of 40 iterations.
     [[noreturn]] void explain_failure() {
         const double stretch = system_.membrane().stretch_range(x_)[0];
+        if (p_.solver.method != SolverMethod::static_newton) {   // load steps would take a method in time too long
+            if (outcome_.status == SolveStatus::runaway)
+                throw failure("the bag is ballooning, largest stretch " + number(stretch) + " and growing. The fabric is too "
+                              "soft for this load: lower the fill, take a stiffer fabric, or check the units");
+            throw failure(outcome_.reason + "; largest stretch " + number(stretch));
+        }
         const double residual = outcome_.residual;
         double held = 0, failed = 1;
         VectorXd good = flatten(p_.start.empty() ? p_.rest.x : p_.start);
@@ -191,8 +200,8 @@ private:
             if (fraction <= held || fraction >= failed || !system_.has_load()) continue;
             VectorXd x = good;
             system_.set_load_factor(fraction);
-            newton_.allow_iterations(40);
-            if (newton_.solve(x, 1e-4, held > 0 ? 0 : system_.scales().tension, "load factor " + number(fraction)).ok()) {
+            method_->allow_iterations(40);
+            if (method_->solve(x, 1e-4, held > 0 ? 0 : system_.scales().tension, "load factor " + number(fraction)).ok()) {
                 held = fraction;
                 good = x;
             } else {
@@ -202,12 +211,12 @@ private:
         system_.set_load_factor(1);
         x_ = held > 0 ? good : x_;
         std::string text;
-        if (outcome_.status == NewtonStatus::runaway || stretch > 2.5)
+        if (outcome_.status == SolveStatus::runaway || stretch > 2.5)
             text = "no equilibrium: the bag is ballooning, largest stretch " + number(stretch) +
                    " and growing; equilibrium was found up to " + number(held) + " of the load, not at " + number(failed) +
                    ". The fabric is too soft for this load: lower the fill, take a stiffer fabric, or check the units";
         else
-            text = "no convergence: residual " + number(residual) + " after " + std::to_string(newton_.iterations()) +
+            text = "no convergence: residual " + number(residual) + " after " + std::to_string(method_->iterations()) +
                    " iterations, largest stretch " + number(stretch) + "; equilibrium was found up to " + number(held) +
                    " of the load. Raise /formwork/inflate/solver/max_iterations, or fill less";
         throw failure(text);
@@ -224,18 +233,18 @@ private:
         r.converged = converged;
         r.residual = outcome_.residual;
         r.rounding_floor = outcome_.rounding_floor;
-        r.at_rounding_floor = outcome_.status == NewtonStatus::rounding_floor;
-        r.iterations = newton_.iterations();
-        r.factorizations = newton_.factorizations();
-        r.method = "static";
+        r.at_rounding_floor = outcome_.status == SolveStatus::rounding_floor;
+        r.iterations = method_->iterations();
+        r.factorizations = method_->factorizations();
+        r.method = arcsim::name_of(solver_method_names, p_.solver.method);
         r.regularisation = regularisation_;
         if (regularisation_.prestress == 0) {
             const Extent e = measure_extent(system_, x_);
             r.regularisation.depth_extrapolated_m = e.depth;
             r.regularisation.volume_extrapolated_m3 = e.volume;
         }
-        r.history = newton_.history();
-        r.times = newton_.times();
+        r.history = method_->history();
+        r.times = method_->times();
         r.warnings = warnings_;
         if (r.at_rounding_floor && converged)
             r.warnings.push_back("the residual stopped at " + number(r.residual) + ", where rounding sets a floor of about " +
@@ -246,9 +255,9 @@ private:
 
     const EquilibriumProblem& p_;
     StaticSystem system_;
-    NewtonSolver newton_;
+    std::unique_ptr<EquilibriumMethod> method_;
     VectorXd x_;
-    NewtonOutcome outcome_;
+    SolveOutcome outcome_;
     Regularisation regularisation_;
     std::vector<std::string> warnings_;
 };
@@ -256,10 +265,6 @@ private:
 }  // namespace
 
 EquilibriumResult find_equilibrium(const EquilibriumProblem& problem) {
-    if (problem.solver.method != SolverMethod::static_newton)
-        throw arcsim::InputError("solver/method: \"" +
-                                 std::string(arcsim::name_of(solver_method_names, problem.solver.method)) +
-                                 "\" is not available for filled bags in this version. Use \"static\".");
     const auto wall = std::chrono::steady_clock::now();
     const double cpu = arcsim::cpu_seconds();
     Run run(problem);

@@ -138,41 +138,36 @@ void NewtonSolver::report(const std::string& phase, double residual, double step
     if (on_iteration_) on_iteration_(r);
 }
 
-NewtonOutcome NewtonSolver::solve(VectorXd& x, double tolerance, double T0, const std::string& phase) {
+SolveOutcome NewtonSolver::solve(VectorXd& x, double tolerance, double T0, const std::string& phase) {
     Stopwatch total(times_.total);
-    NewtonOutcome out;
+    SolveOutcome out;
     const double longest_allowed = largest_step * system_.scales().reach;
     StaticSystem::Balance now;
     {
         Stopwatch watch(times_.line_search);
         now = system_.gradient(x, g_);
     }
-    // Until the liquid has found its place the load may be next to nothing: measure against the expected one.
-    const double expected = system_.has_load() ? 1e-6 * system_.load_factor() * system_.scales().pressure *
-                                                     system_.scales().area / std::sqrt(double(x.size()) / 3)
-                                               : 1e-300;
-    const auto relative = [&](const StaticSystem::Balance& b) { return b.residual / std::max(b.load, expected); };
     double step = 1;
     int slow = 0, best_at = iterations_;
     double best = std::numeric_limits<double>::infinity();
     for (;; ++iterations_) {
-        out.residual = relative(now);
+        out.residual = system_.relative(now);
         report(phase, out.residual, step, x);
         if (!std::isfinite(out.residual)) {
-            out.status = NewtonStatus::runaway;
+            out.status = SolveStatus::runaway;
             return out;
         }
         if (out.residual <= tolerance) {
-            out.status = NewtonStatus::converged;
+            out.status = SolveStatus::converged;
             return out;
         }
         if (history_.back().max_stretch > runaway_stretch) {
-            out.status = NewtonStatus::runaway;
+            out.status = SolveStatus::runaway;
             return out;
         }
         if (out.residual < 0.9 * best) best = out.residual, best_at = iterations_;
         if (iterations_ >= limit_ || iterations_ - best_at > patience) {
-            out.status = NewtonStatus::out_of_iterations;
+            out.status = SolveStatus::out_of_iterations;
             return out;
         }
         if (T0 < fade_below * T_ref_) T0 = 0;
@@ -181,10 +176,10 @@ NewtonOutcome NewtonSolver::solve(VectorXd& x, double tolerance, double T0, cons
             system_.tangent(x, T0, H_, border_, arcsim::Tangent::exact);
         }
         if (out.residual < 1e-5) {
-            out.rounding_floor = rounding_floor(x, std::max(now.load, expected));
+            out.rounding_floor = rounding_floor(x, now.residual / out.residual);
             // At the floor, and no longer falling: rounding, not lack of convergence.
             if (slow >= 2 && out.residual < 4 * out.rounding_floor) {
-                out.status = NewtonStatus::rounding_floor;
+                out.status = SolveStatus::rounding_floor;
                 return out;
             }
         }
@@ -192,7 +187,7 @@ NewtonOutcome NewtonSolver::solve(VectorXd& x, double tolerance, double T0, cons
         const bool by_residual = H_.is_general() && out.residual < newton_is_trusted_at;
         const bool found = H_.is_general() ? direction_by_lu(T0, by_residual) : direction(T0, out.residual);
         if (!found) {
-            out.status = NewtonStatus::stalled;
+            out.status = SolveStatus::stalled;
             return out;
         }
         Stopwatch watch(times_.line_search);

@@ -6,18 +6,9 @@
 
 #include "arcsim/solve/linear_solver.hpp"
 #include "arcsim/solve/pcg.hpp"
-#include "formwork/equilibrium/static_system.hpp"
+#include "formwork/equilibrium/method.hpp"
 
 namespace formwork {
-
-enum class NewtonStatus { converged, rounding_floor, runaway, stalled, out_of_iterations };
-
-struct NewtonOutcome {
-    NewtonStatus status = NewtonStatus::out_of_iterations;
-    double residual = 0;         // relative
-    double rounding_floor = 0;   // estimate, relative
-    bool ok() const { return status == NewtonStatus::converged || status == NewtonStatus::rounding_floor; }
-};
 
 /// Newton's method on the equilibrium, globalised (tension_field.md 5):
 ///
@@ -30,23 +21,21 @@ struct NewtonOutcome {
 ///     the symmetric half alone a woven sock takes hundreds of steps;
 ///   - a step is halved until the force along it no longer pulls back by more than half: no energy is needed, so laws
 ///     without potential are welcome.
-class NewtonSolver {
+class NewtonSolver final : public EquilibriumMethod {
 public:
     NewtonSolver(StaticSystem& system, const SolverParams& params,
                  std::function<void(const IterationReport&)> on_iteration);
 
-    /// @param x    start and result; when not ok, the best state found
-    /// @param T0   initial regularisation, N/m; 0 near a solution
-    NewtonOutcome solve(VectorXd& x, double tolerance, double T0, const std::string& phase);
+    SolveOutcome solve(VectorXd& x, double tolerance, double T0, const std::string& phase) override;
 
-    int iterations() const { return iterations_; }
-    int factorizations() const {
+    int iterations() const override { return iterations_; }
+    int factorizations() const override {
         return solver_->cost().factorizations + (lu_ ? lu_->cost().factorizations : 0);
     }
-    const std::vector<IterationReport>& history() const { return history_; }
-    const SolverTimes& times() const { return times_; }
+    const std::vector<IterationReport>& history() const override { return history_; }
+    const SolverTimes& times() const override { return times_; }
     const arcsim::LinearSolver& linear_solver() const { return *solver_; }
-    void allow_iterations(int more) { limit_ = iterations_ + more; }
+    void allow_iterations(int more) override { limit_ = iterations_ + more; }
 
 private:
     bool direction(double& T0, double relative);

@@ -245,6 +245,13 @@ StaticSystem::Balance StaticSystem::gradient(const VectorXd& x, VectorXd& g) {
     return b;
 }
 
+double StaticSystem::relative(const Balance& b) const {
+    const double expected = has_load_ ? 1e-6 * load_factor_ * scales_.pressure * scales_.area /
+                                            std::sqrt(double(state_.x.size()) / 3)
+                                      : 1e-300;
+    return b.residual / std::max(b.load, expected);
+}
+
 void StaticSystem::tangent(const VectorXd& x, double T0, BlockMatrix& H, VectorXd& border, arcsim::Tangent kind) {
     state_.x = x;
     H.set_zero();
@@ -253,6 +260,24 @@ void StaticSystem::tangent(const VectorXd& x, double T0, BlockMatrix& H, VectorX
     pressure_->add_hessian(state_, kind, H);
     if (T0 > 0) membrane_->add_laplacian(T0, H);
     H.fix(fixed_);
+    level_border(x, border);
+}
+
+void StaticSystem::weighted_tangent(const VectorXd& x, double w_fabric, double w_other, arcsim::Tangent kind, BlockMatrix& H,
+                                    VectorXd& border) {
+    state_.x = x;
+    H.set_zero();
+    membrane_->add_hessian(state_, kind, H);
+    H.scale(w_fabric / w_other);
+    seams_.add_hessian(state_, kind, H);
+    pressure_->add_hessian(state_, arcsim::Tangent::exact, H);
+    H.scale(w_other);
+    level_border(x, border);
+    border *= std::sqrt(w_other);
+}
+
+/// The rank-one term of the eliminated level.
+void StaticSystem::level_border(const VectorXd& x, VectorXd& border) const {
     border.resize(0);
     if (!level_is_unknown() || level_is_capped_) return;
     const double waterplane = pressure_->totals(x, pressure_->level()).waterplane;

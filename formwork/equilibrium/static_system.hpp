@@ -58,14 +58,22 @@ public:
     };
     /// g = -(sum of all forces), 3n, with held entries: the reactions.
     Balance gradient(const VectorXd& x, VectorXd& g);
+    /// The residual against the load; until the liquid has found its place that may be next to nothing, and a millionth of
+    /// the expected one stands in.
+    double relative(const Balance& b) const;
     /// Tangent with T0 times the rest shape's Laplacian, held rows fixed. `border` (3n) gets b / sqrt(rho g waterplane):
     /// the unknown level adds border border^T; empty when the level is prescribed.
     void tangent(const VectorXd& x, double T0, BlockMatrix& H, VectorXd& border, arcsim::Tangent kind);
+    /// w_fabric H_fabric + w_other H_other (seams, liquid), nothing fixed: for steps in time, whose damping acts on the
+    /// fabric alone. `kind` is the fabric's and the seams'; the liquid's is always the chosen Jacobian.
+    void weighted_tangent(const VectorXd& x, double w_fabric, double w_other, arcsim::Tangent kind, BlockMatrix& H,
+                          VectorXd& border);
     /// Raises T0 of a tangent already made.
     void add_laplacian(double T0, BlockMatrix& H) const;
 
 private:
     void set_fill(const EquilibriumProblem& p, const VectorXd& rest);
+    void level_border(const VectorXd& x, VectorXd& border) const;
 
     std::unique_ptr<arcsim::BlockPattern> pattern_;
     arcsim::FixedDofs fixed_;

@@ -1,0 +1,85 @@
+#include "formwork/equilibrium/iterative_method.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace formwork {
+namespace {
+
+constexpr double runaway_stretch = 12;      // far beyond any table; a bag that large has no equilibrium
+constexpr double largest_growth = 4. / 3;   // of a face's stretch in one step
+constexpr int floor_patience = 5;           // reports without gain before rounding is suspected
+
+}  // namespace
+
+IterativeMethod::IterativeMethod(StaticSystem& system, const EquilibriumProblem& problem, int limit, int every)
+    : system_(system), params_(problem.solver), on_iteration_(problem.on_iteration), limit_(limit), every_(every) {
+    times_.ordering = system.ordering_s();
+}
+
+void IterativeMethod::begin() {
+    first_ = best_at_ = iterations_;
+    best_ = std::numeric_limits<double>::infinity();
+}
+
+bool IterativeMethod::is_overstretched(const VectorXd& x, const VectorXd& next) const {
+    const MembraneForce& m = system_.membrane();
+    return !next.allFinite() || !(m.stretch_range(next)[0] <= largest_growth * std::max(1.0, m.stretch_range(x)[0]));
+}
+
+/// Noise of the residual: what a change of every coordinate by half a unit in its last place does to the forces.
+double IterativeMethod::rounding_floor(const VectorXd& x, double load) {
+    constexpr double half_ulp = std::numeric_limits<double>::epsilon() / 2;
+    constexpr double magnified = 1e3;   // so that the difference is not itself rounding
+    noisy_ = x;
+    unsigned state = 12345;
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+        state = 1664525u * state + 1013904223u;
+        if (!system_.fixed()[static_cast<int>(i)]) noisy_[i] += magnified * half_ulp * x[i] * (2.0 * state / 4294967295.0 - 1);
+    }
+    system_.gradient(noisy_, g1_);
+    system_.gradient(x, g0_);
+    g1_ -= g0_;
+    system_.fixed().clear(g1_);
+    return g1_.norm() / magnified / load;
+}
+
+bool IterativeMethod::is_over(const VectorXd& x, const StaticSystem::Balance& now, double tolerance, double step,
+                              const std::string& phase, SolveOutcome& out) {
+    out.residual = system_.relative(now);
+    const bool finite = std::isfinite(out.residual);
+    const bool converged = finite && out.residual <= tolerance;
+    const bool exhausted = iterations_ - first_ >= limit_;
+    if (out.residual < 0.9 * best_) best_ = out.residual, best_at_ = iterations_;
+    if (iterations_ % every_ != 0 && finite && !converged && !exhausted) return false;
+
+    IterationReport r;
+    r.iteration = iterations_;
+    r.residual = out.residual;
+    r.factorizations = factorizations();
+    r.step = step;
+    r.max_stretch = system_.membrane().stretch_range(x)[0];
+    r.phase = phase;
+    history_.push_back(r);
+    if (on_iteration_) on_iteration_(r);
+
+    if (converged) {
+        out.status = SolveStatus::converged;
+        return true;
+    }
+    if (!finite || !(r.max_stretch <= runaway_stretch)) {
+        out.status = SolveStatus::runaway;
+        return true;
+    }
+    if (out.residual < 1e-5 && iterations_ - best_at_ >= floor_patience * every_) {
+        out.rounding_floor = rounding_floor(x, out.residual > 0 ? now.residual / out.residual : 1);
+        if (out.residual < 4 * out.rounding_floor) {
+            out.status = SolveStatus::rounding_floor;
+            return true;
+        }
+    }
+    if (exhausted) out.status = SolveStatus::out_of_iterations;
+    return exhausted;
+}
+
+}  // namespace formwork
