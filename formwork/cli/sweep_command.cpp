@@ -23,16 +23,17 @@ void sweep(const SweepArguments& a, Session& session) {
         return;
     }
     s.write_points();
+    arcsim::Progress progress(session.verbosity());
     if (!a.list && !a.collect) {
-        arcsim::Progress progress(session.verbosity());
         if (s.run(a.processes, progress) > 0) session.exit_code = 3;
     }
-    const int finished = a.list ? 0 : s.collect();
+    const SweepResults results = a.list ? SweepResults{} : s.collect();
+    for (const std::string& warning : results.warnings) progress.warning(warning);
     if (session.quiet) return;
     if (a.list)
         std::printf("%s: %zu points\n", (s.out() / "points.csv").c_str(), s.points().size());
     else
-        std::printf("%s: %d of %zu points finished\n", (s.out() / "results.csv").c_str(), finished, s.points().size());
+        std::printf("%s: %d of %zu points finished\n", (s.out() / "results.csv").c_str(), results.finished, s.points().size());
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "formwork/report/image.hpp"
@@ -15,8 +16,16 @@ struct ChartSeries {
     int colour = 0;      // class_colour
 };
 
-/// A chart with axes, round ticks, a grid and a legend.
-Image line_chart(const std::vector<ChartSeries>& series, const std::string& title, const std::string& x_label,
-                 const std::string& y_label);
+enum class AxisScale { from_zero, fitted, logarithmic };   // fitted: as far as the values reach
+
+struct ChartAxis {
+    ChartAxis(const char* axis_label) : label(axis_label) {}
+    ChartAxis(std::string axis_label, AxisScale axis_scale) : label(std::move(axis_label)), scale(axis_scale) {}
+    std::string label;
+    AxisScale scale = AxisScale::from_zero;
+};
+
+/// A chart with axes, round ticks, a grid and a legend. A logarithmic axis asks for values above zero.
+Image line_chart(const std::vector<ChartSeries>& series, const std::string& title, const ChartAxis& x, const ChartAxis& y);
 
 }  // namespace formwork

@@ -18,6 +18,8 @@
 #include "arcsim/base/json_value.hpp"
 #include "arcsim/base/text.hpp"
 #include "formwork/study/process.hpp"
+#include "formwork/study/sweep_chart.hpp"
+#include "formwork/study/sweep_inputs.hpp"
 #include "formwork/study/sweep_table.hpp"
 
 namespace formwork {
@@ -28,13 +30,6 @@ using std::filesystem::path;
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// FNV-1a: tells whether scene or overrides changed since a point ran; not a matter of security.
-std::string hash_text(const std::string& text) {
-    std::uint64_t h = 0xcbf29ce484222325u;
-    for (unsigned char c : text) h = (h ^ c) * 0x100000001b3u;
-    return std::to_string(h);
 }
 
 /// Holds a point's folder while it runs, so that two sweeps or two cluster tasks never run it at once.
@@ -77,7 +72,6 @@ Sweep::Sweep(const path& sweep_file, path out) : out_(std::move(out)) {
     const arcsim::JsonDocument document = arcsim::read_json(sweep_file);
     arcsim::Warnings warnings;
     arcsim::read_params(arcsim::JsonNode(document), params_, warnings);
-    scene_text_ = arcsim::read_text_file(params_.scene.path);
     try {
         points_ = plan_points(params_);
     } catch (const arcsim::InputError& e) {
@@ -92,9 +86,9 @@ path Sweep::folder(const SweepPoint& p) const {
 }
 
 std::string Sweep::fingerprint(const SweepPoint& p) const {
-    std::string text = scene_text_ + '\n' + params_.from_stage + '\n' + params_.to_stage;
-    for (const auto& [key, value] : p.overrides) text += '\n' + key + '=' + value;
-    return hash_text(text);
+    std::vector<std::string> words{params_.from_stage, params_.to_stage};
+    for (const auto& [key, value] : p.overrides) words.insert(words.end(), {key, value});
+    return fingerprint_inputs(params_.scene.path, words);
 }
 
 std::vector<std::string> Sweep::command(const SweepPoint& p) const {
@@ -122,6 +116,12 @@ void Sweep::write_status(const SweepPoint& p, int exit_code, double wall_s) cons
     v.set("wall_s", wall_s);
     v.set("message", exit_code == 0 ? "" : last_line(folder(p) / "run.log"));
     arcsim::write_file_atomically(folder(p) / "status.json", arcsim::to_text(v) + "\n");
+}
+
+pid_t Sweep::start(const SweepPoint& p) const {
+    std::filesystem::remove(folder(p) / "status.json");
+    if (params_.from_stage.empty()) std::filesystem::remove(folder(p) / "summary.json");   // of older overrides
+    return start_process(command(p), folder(p) / "run.log");
 }
 
 int Sweep::run(int processes, arcsim::Progress& progress) const {
@@ -157,10 +157,7 @@ int Sweep::run(int processes, arcsim::Progress& progress) const {
                 progress.warning("point " + std::to_string(p.number) + " is being run by another process: left to it");
                 continue;
             }
-            std::filesystem::remove(folder(p) / "status.json");
-            if (params_.from_stage.empty()) std::filesystem::remove(folder(p) / "summary.json");   // of older overrides
-            const pid_t pid = start_process(command(p), folder(p) / "run.log");
-            running.emplace(pid, Running{&p, std::move(lock), Clock::now()});
+            running.emplace(start(p), Running{&p, std::move(lock), Clock::now()});
         }
         const EndedProcess ended = wait_for_process(0.5);
         if (const auto it = running.find(ended.pid); it != running.end()) {
@@ -195,32 +192,33 @@ int Sweep::run_point(int number) const {
     if (!lock.held())
         throw arcsim::InputError(folder(p).string() + ": another process runs this point. Wait for it, or use another output folder.");
     if (const Status s = status(p); s.finished) return s.exit_code;
-    const auto start = Clock::now();
-    const pid_t pid = start_process(command(p), folder(p) / "run.log");
+    const auto began = Clock::now();
+    const pid_t pid = start(p);
     EndedProcess ended;
     while (ended.pid != pid) {
         ended = wait_for_process(1);
         if (ended.pid == 0 && arcsim::interrupt_requested()) kill(pid, SIGINT);
     }
     if (ended.exit_code >= 128) throw arcsim::Interrupted();
-    write_status(p, ended.exit_code, seconds_since(start));
+    write_status(p, ended.exit_code, seconds_since(began));
     return ended.exit_code;
 }
 
 void Sweep::write_points() const { arcsim::write_file_atomically(out_ / "points.csv", points_table(points_).csv()); }
 
-int Sweep::collect() const {
-    int finished = 0;
+SweepResults Sweep::collect() const {
+    SweepResults results;
     std::vector<SweepRow> rows;
     for (const SweepPoint& p : points_) {
         const Status s = status(p);
-        finished += s.finished;
+        results.finished += s.finished;
         const char* word = !s.finished ? "missing" : s.exit_code == 0 ? "done" : s.exit_code == 2 ? "wrong input" : "failed";
         rows.push_back({&p, word, s.exit_code, s.wall_s, s.message, folder(p) / "summary.json"});
     }
     const SweepTable table = results_table(rows);
     arcsim::write_file_atomically(out_ / "results.csv", table.csv());
-    return finished;
+    if (results.finished > 0) results.warnings = draw_sweep_charts(params_, table, out_);
+    return results;
 }
 
 }  // namespace formwork

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -8,6 +10,11 @@
 #include "formwork/study/sweep_plan.hpp"
 
 namespace formwork {
+
+struct SweepResults {
+    int finished = 0;                    // points
+    std::vector<std::string> warnings;   // charts that could not be drawn, and why
+};
 
 /// A sweep on disk. OUT/points/0007/ is the output folder of point 7; beside the stages' files it holds
 /// run.log and status.json, which is written last: a point without it was not finished and runs again.
@@ -27,8 +34,8 @@ public:
     int run_point(int number) const;
     /// Writes OUT/points.csv: number, then one column per key.
     void write_points() const;
-    /// Writes OUT/results.csv (one row a point, failed ones too) and the charts. Returns the number of finished points.
-    int collect() const;
+    /// Writes OUT/results.csv (one row a point, failed ones too) and OUT/charts/.
+    SweepResults collect() const;
 
 private:
     struct Status {
@@ -40,12 +47,12 @@ private:
     std::filesystem::path folder(const SweepPoint& p) const;
     std::string fingerprint(const SweepPoint& p) const;
     Status status(const SweepPoint& p) const;
+    pid_t start(const SweepPoint& p) const;   // of a point whose folder is locked
     std::vector<std::string> command(const SweepPoint& p) const;
     void write_status(const SweepPoint& p, int exit_code, double wall_s) const;
 
     SweepParams params_;
     std::filesystem::path out_;
-    std::string scene_text_;
     std::vector<SweepPoint> points_;
 };
 

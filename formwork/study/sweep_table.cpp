@@ -55,6 +55,12 @@ void SweepTable::set(const std::string& column, const std::string& value) {
     rows_.back()[index] = value;
 }
 
+std::string SweepTable::cell(std::size_t row, const std::string& column) const {
+    const auto it = std::find(columns_.begin(), columns_.end(), column);
+    const auto index = static_cast<std::size_t>(it - columns_.begin());
+    return index < rows_[row].size() ? rows_[row][index] : std::string();
+}
+
 std::string SweepTable::csv() const {
     std::string text;
     for (std::size_t i = 0; i < columns_.size(); ++i) text += (i ? "," : "") + quoted(columns_[i]);

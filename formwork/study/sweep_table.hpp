@@ -15,6 +15,11 @@ public:
     void set(const std::string& column, const std::string& value);   // of the last row
     std::string csv() const;                                         // RFC 4180
 
+    std::size_t n_rows() const { return rows_.size(); }
+    const std::vector<std::string>& columns() const { return columns_; }
+    /// Empty when the row has nothing in that column, or no column has that name.
+    std::string cell(std::size_t row, const std::string& column) const;
+
 private:
     std::vector<std::string> columns_;
     std::vector<std::vector<std::string>> rows_;
