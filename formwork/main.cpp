@@ -1,4 +1,6 @@
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <new>
 
 #include "arcsim/base/error.hpp"
@@ -12,7 +14,10 @@ int main(int argc, char** argv) {
     };
     arcsim::catch_interrupts();
     try {
-        return formwork::run_command_line(argc, argv);
+        const int code = formwork::run_command_line(argc, argv);
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+            throw arcsim::InputError(std::string("standard output cannot be written (") + std::strerror(errno) + ").");
+        return code;
     } catch (const arcsim::InputError& e) {
         return fail(e.what(), 2);
     } catch (const arcsim::NumericalError& e) {

@@ -3,6 +3,7 @@
 
 #include "arcsim/base/error.hpp"
 #include "arcsim/base/files.hpp"
+#include "arcsim/base/json_advice.hpp"
 #include "arcsim/base/json_value.hpp"
 
 namespace arcsim {
@@ -60,18 +61,17 @@ public:
         keys_.push_back(std::move(name));
         return true;
     }
-    bool parse_error(std::size_t, const std::string& token, const json::exception& e) {
-        locate(Ends::here);
+    bool parse_error(std::size_t position, const std::string&, const json::exception& e) {
+        line_ = 1, scanned_ = line_start_ = 0;
+        const std::size_t at = std::min(position == 0 ? 0 : position - 1, text_.size());
+        advance(at);
+        const int column = static_cast<int>(at - line_start_) + 1;
+        if (e.id == 406) fail(line_, column, "the number before this is too large for any computer. Mend it.");
+        const std::string advice = json_advice(text_, position);
+        if (!advice.empty()) fail(line_, column, "not valid JSON: " + advice);
         std::string what = e.what();   // "[json.exception.parse_error.101] parse error at line 3, column 5: ..."
-        const std::size_t where = what.find("line ");
-        int line = 1, column = 1;
-        if (where == std::string::npos || std::sscanf(what.c_str() + where, "line %d, column %d", &line, &column) != 2)
-            line = column = 1;
         const std::size_t colon = what.find(": ");
-        what = colon == std::string::npos ? what : what.substr(colon + 2);
-        if (what.find("NaN") == std::string::npos && (token.find("nan") != std::string::npos || token.find("NaN") != std::string::npos))
-            what += " (NaN is not a number in JSON)";
-        fail(line, column, "not valid JSON: " + what + ". Mend the text there.");
+        fail(line_, column, "not valid JSON: " + (colon == std::string::npos ? what : what.substr(colon + 2)) + ". Mend the text there.");
     }
 
     JsonValue root;

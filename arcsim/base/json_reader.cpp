@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "arcsim/base/error.hpp"
 #include "arcsim/base/text.hpp"
 
 namespace arcsim {
@@ -32,8 +31,8 @@ void ParamsReader::leave() {
         std::vector<std::string> known = level.known;
         std::sort(known.begin(), known.end());
         known.erase(std::unique(known.begin(), known.end()), known.end());
-        node.fail("is not a known key." + (guess.empty() ? "" : " Did you mean \"" + guess + "\"?") +
-                  (known.empty() ? "" : " Known: " + join(known) + "."));
+        throw UnknownKeyError(node.place() + "is not a known key." + (guess.empty() ? "" : " Did you mean \"" + guess + "\"?") +
+                                  (known.empty() ? "" : " Known: " + join(known) + "."), key, !guess.empty());
     }
     levels_.pop_back();
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "arcsim/base/archive.hpp"
+#include "arcsim/base/error.hpp"
 #include "arcsim/base/json_value.hpp"
 
 namespace arcsim {
@@ -45,6 +46,13 @@ private:
     const JsonDocument* document_;
     const JsonValue* value_;
     std::string pointer_;
+};
+
+/// A key that the object does not have. `guessed`: the message already suggests one beside it.
+struct UnknownKeyError : InputError {
+    UnknownKeyError(const std::string& what, std::string k, bool g) : InputError(what), key(std::move(k)), guessed(g) {}
+    std::string key;
+    bool guessed;
 };
 
 /// What a reader does with keys that other programs know and this one does not act on.

@@ -21,8 +21,9 @@ void read_rows(const JsonNode& node, int rows, int columns, const char* unit, co
 
 }  // namespace
 
-MaterialData read_material(const std::filesystem::path& file) {
-    const JsonDocument document = read_json(file);
+MaterialData read_material(const std::filesystem::path& file) { return parse_material(read_json(file)); }
+
+MaterialData parse_material(const JsonDocument& document) {
     const JsonNode root(document);
     if (root.kind() != JsonKind::object) root.fail("expected an object { ... }, got " + root.shown() + ".");
     MaterialData m;

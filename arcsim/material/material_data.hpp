@@ -7,6 +7,8 @@
 
 namespace arcsim {
 
+struct JsonDocument;
+
 /// Four in-plane stiffnesses of one state of the cloth, N/m, in the file's order: k_uu, k_uv (coupling),
 /// k_vv, k_ss (shear). S_uu = k_uu G_uu + k_uv G_vv, S_vv = k_vv G_vv + k_uv G_uu, S_uv = k_ss G_uv with
 /// the tensor shear G_uv.
@@ -32,5 +34,6 @@ struct MaterialData {
 /// @throws InputError with file, line and pointer: missing rows, wrong lengths, numbers that are not
 ///         finite, a density that is not positive
 MaterialData read_material(const std::filesystem::path& file);
+MaterialData parse_material(const JsonDocument& document);
 
 }  // namespace arcsim

@@ -3,6 +3,7 @@
 #include "arcsim/base/error.hpp"
 #include "arcsim/base/files.hpp"
 #include "formwork/cli/session.hpp"
+#include "formwork/scene/doubts.hpp"
 #include "formwork/scene/formwork_scene.hpp"
 #include "formwork/scene/mesh_doctor.hpp"
 
@@ -52,7 +53,8 @@ void check(const SceneArguments& arguments, const std::string& places_file, Sess
     print(("note: " + mesh_name + ": ").c_str(), bag.notes);
     if (scene.has_formwork && !p.segment.field) {
         const std::vector<char> held = held_dofs(scene, bag);
-        scene.plaster();
+        for (const std::string& doubt : doubts_about_plaster(scene.plaster(), bag.surface, held, p.up))
+            std::printf("warning: %s: %s\n", arguments.scene.c_str(), doubt.c_str());
         const auto n = std::count(held.begin(), held.end(), 1);
         if (!session.quiet) std::printf("  %zu degrees of freedom, %ld held\n", held.size(), static_cast<long>(n));
     }

@@ -30,9 +30,9 @@ void add_compare_command(CLI::App& app, Session& session) {
                                     "  formwork compare a.obj b.obj");
     auto a = std::make_shared<std::string>(), b = std::make_shared<std::string>();
     auto tolerance = std::make_shared<std::optional<double>>();
-    command->add_option("A", *a, "OBJ file or folder")->required();
-    command->add_option("B", *b, "OBJ file or folder")->required();
-    command->add_option("--tolerance", *tolerance, "Largest allowed difference of any vertex, m");
+    command->add_option("A", *a, "OBJ file or folder")->required()->type_name("");
+    command->add_option("B", *b, "OBJ file or folder")->required()->type_name("");
+    command->add_option("--tolerance", *tolerance, "Largest allowed difference of any vertex, m")->type_name("M");
     command->callback([a, b, tolerance, &session] { compare(*a, *b, *tolerance, session); });
 }
 

@@ -34,7 +34,7 @@ void add_init_command(CLI::App& app, Session& session) {
                                     "  formwork init mybag                                     then edit mybag/scene.json (SI units)\n"
                                     "  formwork run mybag/scene.json -o mybag/out");
     auto dir = std::make_shared<std::string>();
-    command->add_option("DIR", *dir, "Folder to make")->required();
+    command->add_option("DIR", *dir, "Folder to make")->required()->type_name("");
     command->callback([dir, &session] { init(*dir, session); });
 }
 

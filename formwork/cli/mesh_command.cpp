@@ -65,8 +65,8 @@ void add_mesh_command(CLI::App& app, Session& session) {
                                     "  formwork mesh disk --radius 0.15 --edge 0.01 -o disk.obj");
     auto kind = std::make_shared<std::string>();
     auto file = std::make_shared<std::string>();
-    command->add_option("KIND", *kind, "What to make; see below")->required();
-    command->add_option("-o,--output", *file, "OBJ file to write; default: standard output");
+    command->add_option("KIND", *kind, "What to make; see below")->required()->type_name("");
+    command->add_option("-o,--output", *file, "OBJ file to write; default: standard output")->type_name("FILE");
     command->allow_extras();
     command->footer([] { return "Kinds and their sizes:" + kinds_text(); });
     command->callback([command, kind, file, &session] {

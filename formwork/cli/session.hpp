@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@ namespace formwork {
 struct Session {
     bool quiet = false, json = false;
     int exit_code = 0;
+    std::map<std::string, std::string> examples;   // of each command, for its help and the manual
 
     arcsim::Verbosity verbosity() const {
         return json ? arcsim::Verbosity::json : quiet ? arcsim::Verbosity::quiet : arcsim::Verbosity::normal;
@@ -44,6 +46,8 @@ void add_show_command(CLI::App& app, Session& session);
 void add_compare_command(CLI::App& app, Session& session);
 void add_sweep_command(CLI::App& app, Session& session);
 void add_study_commands(CLI::App& app, Session& session);   // tensile, fit
+
+void add_manual_command(CLI::App& app, Session& session);
 
 /// "formwork 0.1.0" and what it was built with and runs on.
 std::string version_text();

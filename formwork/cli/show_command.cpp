@@ -57,7 +57,7 @@ void add_show_command(CLI::App& app, Session& session) {
                                     "  formwork show out/column       plaster in l and kg, seams in m, cloth in m²\n"
                                     "  formwork show out/column -q");
     auto dir = std::make_shared<std::string>();
-    command->add_option("DIR", *dir, "Output folder of a run")->required();
+    command->add_option("DIR", *dir, "Output folder of a run")->required()->type_name("");
     command->callback([dir] { show(*dir); });
 }
 

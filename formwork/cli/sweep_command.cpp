@@ -43,10 +43,10 @@ void add_sweep_command(CLI::App& app, Session& session) {
                                     "  formwork sweep conf/sweeps/fill_density.json -o out/fill    run, or go on with what is not finished\n"
                                     "  formwork sweep conf/sweeps/fill_density.json -o out/fill --point 3   one point, as a cluster's task");
     auto a = std::make_shared<SweepArguments>();
-    command->add_option("SWEEP", a->file, "Sweep file (JSON)")->required();
-    command->add_option("-o,--output", a->out, "Output folder. Default: out/ and the file's name");
-    command->add_option("-j,--processes", a->processes, "Points that run at once; 0: as the file says, or one per core");
-    auto* point = command->add_option("--point", a->point, "Run this one point only, unless it is finished");
+    command->add_option("SWEEP", a->file, "Sweep file (JSON)")->required()->type_name("");
+    command->add_option("-o,--output", a->out, "Output folder. Default: out/ and the file's name")->type_name("FOLDER");
+    command->add_option("-j,--processes", a->processes, "Points that run at once; 0: as the file says, or one per core")->type_name("N");
+    auto* point = command->add_option("--point", a->point, "Run this one point only, unless it is finished")->type_name("N");
     auto* list = command->add_flag("--list", a->list, "Write points.csv and run nothing");
     auto* collect = command->add_flag("--collect", a->collect, "Write results.csv from what is finished and run nothing");
     point->excludes(list)->excludes(collect);

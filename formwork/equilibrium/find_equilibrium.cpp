@@ -224,7 +224,7 @@ private:
 
     EquilibriumError failure(const std::string& text) {
         EquilibriumResult last = result(false);
-        return EquilibriumError("equilibrium: " + text + ". The last good state is kept, not converged", last);
+        return EquilibriumError("equilibrium: " + text + ".", last);
     }
 
     EquilibriumResult result(bool converged) {

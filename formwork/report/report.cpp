@@ -26,18 +26,15 @@ std::string escape_html(std::string_view text) {
     return out;
 }
 
-/// Within a script element nothing may look like the element's end: "</" is written "<\/", the same
-/// text to JSON.
+/// Within a script element nothing may look like markup: "<" is written as the same character in JSON's own way.
 std::string escape_script_data(const std::string& json) {
     std::string out;
     out.reserve(json.size());
-    for (size_t i = 0; i < json.size(); ++i) {
-        const bool opens =
-            json[i] == '<' && i + 1 < json.size() && (json[i + 1] == '/' || json[i + 1] == '!');
-        if (opens)
+    for (const char c : json) {
+        if (c == '<')
             out += "\\u003c";
         else
-            out += json[i];
+            out += c;
     }
     return out;
 }

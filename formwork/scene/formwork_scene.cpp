@@ -5,6 +5,7 @@
 #include "arcsim/base/error.hpp"
 #include "arcsim/base/params_schema.hpp"
 #include "arcsim/base/params_writer.hpp"
+#include "arcsim/base/text.hpp"
 
 namespace formwork {
 
@@ -57,6 +58,16 @@ void apply_override(JsonValue& root, const std::string& override) {
     arcsim::override_value(root, path, value, origin);
 }
 
+/// Where a schema has a key.
+void find_key(const JsonValue& schema, const std::string& pointer, const std::string& key, std::vector<std::string>& places) {
+    if (const JsonValue* properties = schema.find("properties"))
+        for (const auto& [name, value] : properties->members) {
+            if (name == key) places.push_back(pointer + "/" + name);
+            find_key(value, pointer + "/" + name, key, places);
+        }
+    if (const JsonValue* items = schema.find("items")) find_key(*items, pointer + "/0", key, places);
+}
+
 /// ArcSim's keys that make no sense for a static bag but change nothing here.
 void warn_about_motion(const FormworkScene& s, std::vector<std::string>& warnings) {
     if (!s.root.handles.empty()) warnings.push_back(s.source + ": /handles hold nothing in formwork stages; /formwork/fixed does.");
@@ -65,15 +76,24 @@ void warn_about_motion(const FormworkScene& s, std::vector<std::string>& warning
 }  // namespace
 
 FormworkScene read_scene(const std::filesystem::path& file, const SceneOptions& options) {
-    arcsim::JsonDocument document = arcsim::read_json(file);
+    return parse_scene(arcsim::read_json(file), options);
+}
+
+FormworkScene parse_scene(arcsim::JsonDocument document, const SceneOptions& options) {
     if (document.root.kind == JsonKind::object)
         for (const std::string& override : options.overrides) apply_override(document.root, override);
 
     FormworkScene scene;
     scene.source = document.source;
     scene.has_formwork = document.root.find("formwork") != nullptr;
-    arcsim::read_params(document, scene, scene.warnings,
-                        options.ignore_unsupported ? arcsim::Unsupported::warn : arcsim::Unsupported::error);
+    try {
+        arcsim::read_params(document, scene, scene.warnings,
+                            options.ignore_unsupported ? arcsim::Unsupported::warn : arcsim::Unsupported::error);
+    } catch (const arcsim::UnknownKeyError& e) {
+        std::vector<std::string> places;
+        if (!e.guessed) find_key(arcsim::schema_of<FormworkScene>(), "", e.key, places);
+        throw InputError(e.what() + (places.empty() ? "" : " \"" + e.key + "\" exists at " + arcsim::join(places) + "."));
+    }
     std::erase_if(scene.warnings, [](const std::string& w) {
         return w.find(": /$schema: ") != std::string::npos || w.find(": /expect: ") != std::string::npos;
     });

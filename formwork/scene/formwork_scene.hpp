@@ -37,6 +37,7 @@ struct SceneOptions {
 /// Reads and checks a scene file; touches nothing else.
 /// @throws InputError
 FormworkScene read_scene(const std::filesystem::path& file, const SceneOptions& options = {});
+FormworkScene parse_scene(arcsim::JsonDocument document, const SceneOptions& options = {});
 
 /// Loads the mesh that the scene names, in metres and in place. Notes about it are appended to `warnings`
 /// only when something had to be changed.

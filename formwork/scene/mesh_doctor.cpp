@@ -7,6 +7,7 @@
 #include "arcsim/base/error.hpp"
 #include "arcsim/base/text.hpp"
 #include "formwork/mesher/mesh_quality.hpp"
+#include "formwork/scene/doubts.hpp"
 #include "formwork/scene/fixed_selector.hpp"
 
 namespace formwork {
@@ -106,6 +107,7 @@ void describe_topology(const Surface& s, const Vector3d& up, MeshDiagnosis& d) {
         d.facts.push_back("  loop " + std::to_string(number++) + ": " + std::to_string(loop.nodes.size()) + " vertices, " + mm(loop.length) +
                           " mm long, at height " + mm(loop.mean_height) + " mm; hold it with {\"boundary\": " + name + "}");
     }
+    if (const std::string doubt = doubt_about_up(s, t, up); !doubt.empty()) d.warnings.push_back(doubt);
     if (t.boundary_loops.empty()) d.warnings.push_back("the mesh is closed: there is no rim to hold or to pour through. Cut an opening, or hold nodes by \"sphere\", \"box\" or \"nodes\".");
     if (t.n_components > 1) d.warnings.push_back("the mesh has " + std::to_string(t.n_components) + " components: each must be held, and segment takes one at a time.");
 }

@@ -4,6 +4,7 @@
 #include "arcsim/base/files.hpp"
 #include "arcsim/base/interrupt.hpp"
 #include "arcsim/base/text.hpp"
+#include "formwork/scene/doubts.hpp"
 #include "formwork/stages/stage.hpp"
 #include "formwork/stages/summary.hpp"
 
@@ -84,8 +85,11 @@ std::vector<std::string> run_pipeline(const FormworkScene& scene, const fs::path
     const BagMesh mesh = load_bag_mesh(scene);
     for (const std::string& note : mesh.notes) progress.message(scene.mesh_file().path.string() + ": " + note);
     if (first == 0 && !scene.formwork.segment.field) {
-        held_dofs(scene, mesh);
-        scene.plaster();
+        const std::vector<char> held = held_dofs(scene, mesh);
+        for (const std::string& doubt : doubts_about_plaster(scene.plaster(), mesh.surface, held, scene.formwork.up))
+            progress.warning(scene.source + ": " + doubt);
+        if (const std::string doubt = doubt_about_up(mesh.surface, mesh.topology, scene.formwork.up); !doubt.empty())
+            progress.warning(scene.mesh_file().path.string() + ": " + doubt);
     }
     check_reads(table[first], scene, dir);
     const std::string print = scene_fingerprint(scene);

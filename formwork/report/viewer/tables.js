@@ -50,6 +50,14 @@ const Page = (() => {
     mean_stretch_distortion: ['Distortion of the flattening, mean', '%', 100], flips: ['Flipped faces'],
     overlaps: ['Overlapping pieces'], max_seam_length_mismatch: ['Seam length mismatch, largest', '%', 100],
     max_panel_covariance_energy: ['Panel covariance energy, largest'], files: ['Files'],
+    rounding_floor: ['Residual that rounding alone leaves'], p95_abs_shear: ['|shear| below which 95 % of the cloth lies'],
+    taut_mean_abs_shear: ['Mean |shear| where the cloth is taut'], inflated_max_m: ['Deviation from the inflated shape, largest', 'mm', 1e3],
+    p95_tension_N_per_m: ['Tension below which 95 % of the cloth lies', 'N/m'],
+    seam_max_line_load_N_per_m: ['Largest pull across a seam', 'N/m'], warp_strain: ['Warp strain'], weft_strain: ['Weft strain'],
+    area_share_per_5deg_off_square: ['Cloth by the weave\u2019s angle off square, in steps of 5\u00b0', '%', 100],
+    prestress_N_per_m: ['Prestress', 'N/m'], depth_effect: ['Effect on the depth', '%', 100], volume_effect: ['Effect on the volume', '%', 100],
+    residual_stiffness: ['Residual stiffness'], regularisation: ['Regularisation'], p95: ['95 % below'], min: ['Smallest'], max: ['Largest'],
+    roll_length_m: ['Length of the roll', 'm'], roll_utilisation: ['Share of the roll used', '%', 100],
   };
   const endings = [['_N_per_m', 'N/m'], ['_m3', 'm\u00b3'], ['_m2', 'm\u00b2'], ['_deg', '\u00b0'], ['_kg', 'kg'], ['_mb', 'MB'],
                    ['_mm', 'mm'], ['_N', 'N'], ['_m', 'm'], ['_s', 's'], ['_Pa', 'Pa']];
@@ -76,7 +84,7 @@ const Page = (() => {
       if (typeof v === 'object' && !Array.isArray(v)) {
         rows(v, body, name);
       } else if (!Array.isArray(v) || (v.length && v.length < 12 && typeof v[0] !== 'object')) {
-        body.append(element('tr', {title: key}, element('td', {}, name),
+        body.append(element('tr', {title: key}, element('td', {class: 'what'}, name),
                             element('td', {class: 'number'}, (value(v, about) + (about.unit ? '\u00a0' + about.unit : '')))));
       }
     }
@@ -127,7 +135,7 @@ const Page = (() => {
     for (const [stage, name] of [['inflate', 'inflated'], ['sew', 'sewn']])
       if (s[stage] && s[stage].converged === false) card('not converged', '', 'the ' + name + ' equilibrium; do not use its figures', true);
     const last = s.sew && typeof s.sew.volume_m3 === 'number' ? 'sew' : 'inflate';
-    pick(last, 'volume_m3', 'liquid to mix', 1e3, 'litres');
+    pick(last, 'volume_m3', 'liquid to mix', 1e3, 'l');
     pick(last, 'liquid_mass_kg', 'its mass', 1, 'kg');
     pick(last, 'depth_m', 'depth', 1e3, 'mm');
     pick('inflate', 'max_stretch', 'largest stretch', 1, '', 4);
