@@ -33,10 +33,12 @@ public:
     ClothSystem& system() { return system_; }
 
 protected:
-    explicit ClothStepper(ClothModel& model, FillOrder order) : system_(model, order) {}
+    ClothStepper(ClothModel& model, const StepParams& params, FillOrder order)
+        : params_(params), system_(model, order, params.linear_solver) {}
     /// Throws when a position is not finite or a face is beyond the limit; names the face.
     void check_state(const VectorXd& x, double max_stretch);
 
+    StepParams params_;
     ClothSystem system_;
     StepCost cost_;
 };
@@ -52,11 +54,10 @@ std::unique_ptr<ClothStepper> make_stepper(ClothModel& model, const StepParams& 
 class LinearizedEuler final : public ClothStepper {
 public:
     LinearizedEuler(ClothModel& model, const StepParams& params, FillOrder order)
-        : ClothStepper(model, order), params_(params) {}
+        : ClothStepper(model, params, order) {}
     StepResult step(State& s, double h) override;
 
 private:
-    StepParams params_;
     VectorXd f_, b_, v_;
     std::vector<Vector3d> held_velocity_;
 };

@@ -2,7 +2,7 @@
 
 namespace arcsim {
 
-ClothSystem::ClothSystem(ClothModel& model, FillOrder order) : model_(model) {
+ClothSystem::ClothSystem(ClothModel& model, FillOrder order, SolverKind solver) : model_(model) {
     std::vector<std::array<int, 2>> pairs;
     model.bend->list_pairs(pairs);
     model.springs.list_pairs(pairs);
@@ -13,7 +13,7 @@ ClothSystem::ClothSystem(ClothModel& model, FillOrder order) : model_(model) {
     model.bend->bind(*pattern_);
     model.wind->bind(*pattern_);
     model.springs.bind(*pattern_);
-    solver_ = make_linear_solver(SolverKind::cholmod);
+    solver_ = make_linear_solver(solver);
     solver_->analyze(*pattern_);
 }
 

@@ -18,7 +18,8 @@ struct StepCost {
 /// The matrix of one cloth and its solver: pattern, fill order and symbolic analysis are made once.
 class ClothSystem {
 public:
-    explicit ClothSystem(ClothModel& model, FillOrder order = FillOrder::automatic);
+    explicit ClothSystem(ClothModel& model, FillOrder order = FillOrder::automatic,
+                         SolverKind solver = SolverKind::mixed);
 
     BlockMatrix& matrix() { return *A_; }
     const BlockPattern& pattern() const { return *pattern_; }

@@ -14,7 +14,7 @@ constexpr int halvings_before_lu = 6;
 }  // namespace
 
 ConvergedStepper::ConvergedStepper(ClothModel& model, const StepParams& params, FillOrder order)
-    : ClothStepper(model, order), params_(params) {
+    : ClothStepper(model, params, order) {
     is_damped_ = model.stretch->is_damped() || model.bend->is_damped();
     if (is_damped_ || model.wind->acts()) viscous_ = std::make_unique<BlockMatrix>(system_.pattern());
     size_ = model.size;

@@ -47,7 +47,6 @@ private:
     double mass_norm(const VectorXd& dv) const;
     [[noreturn]] void fail(const std::string& why, const VectorXd& x);
 
-    StepParams params_;
     std::unique_ptr<BlockMatrix> viscous_;          // D + W
     std::unique_ptr<BlockMatrix> unsymmetric_;      // made when first needed
     std::unique_ptr<LinearSolver> lu_;

@@ -21,18 +21,14 @@ void LinearSolver::factorize(const BlockMatrix& A) {
                          "take a smaller step");
 }
 
-SolverKind solver_kind(const std::string& name) {
-    if (name == "cholmod") return SolverKind::cholmod;
-    if (name == "umfpack") return SolverKind::umfpack;
-    if (name == "eigen") return SolverKind::eigen_ldlt;
-    throw InputError("linear_solver: \"" + name + "\" is not known. Known: cholmod, umfpack, eigen");
-}
-
 std::unique_ptr<LinearSolver> make_linear_solver(SolverKind kind) {
     switch (kind) {
         case SolverKind::cholmod: return make_cholmod();
         case SolverKind::umfpack: return make_umfpack();
         case SolverKind::eigen_ldlt: return make_eigen_ldlt();
+        case SolverKind::supernodal: return make_supernodal();
+        case SolverKind::single: return make_single();
+        case SolverKind::mixed: return make_mixed();
     }
     return nullptr;
 }

@@ -21,8 +21,8 @@ struct FactorCost {
     double nonzeros = 0, flops = 0;         // of one factor
 };
 
-/// Solves A x = b for one BlockMatrix. `cholmod`: symmetric half, positive definite; `umfpack`: both halves;
-/// `eigen_ldlt`: the tests' oracle for the symmetric half.
+/// Solves A x = b for one BlockMatrix. `umfpack`: both halves; the others: the symmetric half, positive definite.
+/// `eigen_ldlt` is the tests' oracle.
 class LinearSolver {
 public:
     virtual ~LinearSolver() = default;
@@ -49,9 +49,14 @@ protected:
     FactorCost cost_;
 };
 
-enum class SolverKind { cholmod, umfpack, eigen_ldlt };
-/// @throws InputError: unknown name
-SolverKind solver_kind(const std::string& name);
+enum class SolverKind {
+    cholmod,
+    umfpack,
+    eigen_ldlt,
+    supernodal,   // our own Cholesky
+    single,       // the same in single precision: a preconditioner
+    mixed         // conjugate gradients on `single`, to the digits of `cholmod`
+};
 std::unique_ptr<LinearSolver> make_linear_solver(SolverKind kind);
 
 /// CPU time of this process, seconds.

@@ -11,11 +11,16 @@ constexpr std::array tangent_names{
     EnumName{StepTangent::definite, "definite", "ArcSim's approximate tangent"},
     EnumName{StepTangent::exact, "exact", "full tangent while it can be factorised, otherwise the definite one"}};
 
+constexpr std::array solver_names{
+    EnumName{SolverKind::mixed, "mixed", "a factor in single precision, refined to double; the exact one where that fails"},
+    EnumName{SolverKind::cholmod, "cholmod", "a factor in double precision"}};
+
 }  // namespace
 
 void visit(Archive& a, StepParams& p) {
     a.choice("method", p.method, method_names, "How a time step is solved.");
     a.choice("tangent", p.tangent, tangent_names, "Derivative that newton_euler and bdf2 use.");
+    a.choice("linear_solver", p.linear_solver, solver_names, "How the linear equations of a step are solved.");
     a.optional("tolerance", p.tolerance, "", positive,
                "Residual at which a step counts as solved, relative to the largest force of the balance.");
     a.optional("max_iterations", p.max_iterations, "", between(1, 10000), "Newton iterations per step.");

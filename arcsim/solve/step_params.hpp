@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arcsim/base/archive.hpp"
+#include "arcsim/solve/linear_solver.hpp"
 
 namespace arcsim {
 
@@ -11,14 +12,15 @@ enum class StepMethod {
 };
 enum class StepTangent { definite, exact };
 
-/// How a cloth is stepped through time. All but the method are for the converged methods, except the limit
-/// of the stretch, which every method watches when it is given.
+/// How a cloth is stepped through time. All but the method and the linear solver are for the converged methods,
+/// except the limit of the stretch, which every method watches when it is given.
 struct StepParams {
     StepMethod method = StepMethod::backward_euler;
     StepTangent tangent = StepTangent::exact;
     double tolerance = 1e-6;      // of the residual, relative to the largest force in the balance
     int max_iterations = 30;      // per step
     int max_halvings = 8;         // of a step that fails
+    SolverKind linear_solver = SolverKind::mixed;
     std::optional<double> max_stretch;   // a face beyond it means a failed step
 };
 void visit(Archive& a, StepParams& p);

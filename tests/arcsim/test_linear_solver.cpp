@@ -4,6 +4,7 @@
 #include "arcsim/base/error.hpp"
 #include "arcsim/solve/fill_order.hpp"
 #include "arcsim/solve/linear_solver.hpp"
+#include "arcsim/solve/pcg.hpp"
 
 using namespace arcsim;
 
@@ -102,7 +103,7 @@ TEST_CASE("every linear solver agrees with Eigen's, in every fill order") {
         VectorXd Ax;
         A.multiply(x, Ax);
         REQUIRE((Ax - b).norm() < 1e-10);
-        for (SolverKind kind : {SolverKind::cholmod, SolverKind::umfpack}) {
+        for (SolverKind kind : {SolverKind::cholmod, SolverKind::umfpack, SolverKind::supernodal, SolverKind::mixed}) {
             const auto solver = make_linear_solver(kind);
             solver->analyze(p);
             for (int repeat = 0; repeat < 2; ++repeat) {
@@ -129,9 +130,69 @@ TEST_CASE("a matrix that is not positive definite is refused, and the node is na
     const BlockPattern p(400, faces, {}, fill_order(400, faces));
     BlockMatrix A(p);
     for (int i = 0; i < 400; ++i) A.add_to_diagonal(i, i == 123 ? -1 : 1);
-    const auto solver = make_linear_solver(SolverKind::cholmod);
-    REQUIRE_FALSE(solver->try_factorize(A));
-    REQUIRE(solver->breakdown().node == 123);
-    REQUIRE_THROWS_WITH(solver->factorize(A), Catch::Contains("node 123"));
-    REQUIRE_THROWS_AS(solver->solve(VectorXd::Ones(1200)), NumericalError);
+    for (SolverKind kind : {SolverKind::cholmod, SolverKind::supernodal, SolverKind::single, SolverKind::mixed}) {
+        const auto solver = make_linear_solver(kind);
+        REQUIRE_FALSE(solver->try_factorize(A));
+        REQUIRE(solver->breakdown().node == 123);
+        REQUIRE_THROWS_WITH(solver->factorize(A), Catch::Contains("node 123"));
+        REQUIRE_THROWS_AS(solver->solve(VectorXd::Ones(1200)), NumericalError);
+    }
+}
+
+namespace {
+
+/// Springs of stiffness 1 along the edges of a grid, in random directions, and `mass` on the diagonal: the smaller the
+/// mass, the worse conditioned.
+BlockMatrix spring_matrix(const BlockPattern& p, const std::vector<Triangle>& faces, double mass) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    BlockMatrix A(p);
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const Vector3d n = Vector3d::NullaryExpr([&] { return uniform(random); }).normalized();
+            const Matrix3d K = n * n.transpose();
+            A.add(p.face_slots(static_cast<int>(f))[k], -K);
+            A.add_diagonal(faces[f][k], K);
+            A.add_diagonal(faces[f][(k + 1) % 3], K);
+        }
+    for (int i = 0; i < p.n_nodes(); ++i) A.add_to_diagonal(i, mass);
+    return A;
+}
+
+}  // namespace
+
+TEST_CASE("the mixed solver keeps double precision where a single-precision factor alone has lost its digits") {
+    constexpr int n = 40;   // wide supernodes and many rows below them
+    const std::vector<Triangle> faces = grid_faces(n);
+    const BlockPattern p(n * n, faces, {}, fill_order(n * n, faces, {}, FillOrder::metis));
+    const VectorXd x = random_vector(3 * n * n);
+    for (double mass : {1.0, 1e-3, 1e-5, 1e-7}) {   // the last one is beyond single precision
+        const BlockMatrix A = spring_matrix(p, faces, mass);
+        VectorXd b, r;
+        A.multiply(x, b);
+        const auto mixed = make_linear_solver(SolverKind::mixed), exact = make_linear_solver(SolverKind::cholmod);
+        mixed->factorize(A);
+        exact->factorize(A);
+        const double reached = (exact->solve(b) - x).norm();
+        INFO(mass);
+        CHECK((mixed->solve(b) - x).norm() < 10 * reached + 1e-13 * x.norm());
+        A.multiply(mixed->solve(b), r);
+        CHECK((r - b).norm() < 1e-13 * b.norm());
+    }
+}
+
+TEST_CASE("conjugate gradients on a single-precision factor need a handful of iterations") {
+    constexpr int n = 30;
+    const std::vector<Triangle> faces = grid_faces(n);
+    const BlockPattern p(n * n, faces, {}, fill_order(n * n, faces));
+    const BlockMatrix A = spring_matrix(p, faces, 1e-2);
+    const auto single = make_linear_solver(SolverKind::single);
+    single->factorize(A);
+    const VectorXd b = random_vector(3 * n * n);
+    VectorXd x;
+    FactorPcg pcg;
+    const PcgOutcome out =
+        pcg.solve([&](const VectorXd& v, VectorXd& y) { A.multiply(v, y); }, *single, b, 1e-13, 20, x);
+    REQUIRE(out.status == PcgStatus::converged);
+    REQUIRE(out.iterations <= 5);
 }
