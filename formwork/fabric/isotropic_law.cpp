@@ -149,4 +149,16 @@ FaceState IsotropicMembrane::state(const Vector3d& eps) const {
     return S2 < 0 ? FaceState::wrinkled : FaceState::taut;
 }
 
+Vector3d IsotropicMembrane::fabric_strain(const Vector3d& eps) const {
+    const FaceState s = tension_field_ ? state(eps) : FaceState::taut;
+    if (s == FaceState::slack) return Vector3d::Zero();
+    if (s == FaceState::taut) return eps;
+    const double R = std::hypot(0.5 * (eps[0] - eps[1]), eps[2]), e1 = 0.5 * (eps[0] + eps[1]) + R;
+    const Stiffness a = stiffness(all_lanes(e1));
+    const double e2 = -a.q[0] * e1 / (separable_ ? k0_ : a.k[0]);
+    const double mean = 0.5 * (e1 + e2), half = 0.5 * (e1 - e2) / R;   // a wrinkled face has e1 > 0 > e2
+    const double c2 = 0.5 * (eps[0] - eps[1]);
+    return {mean + half * c2, mean - half * c2, half * eps[2]};
+}
+
 }  // namespace formwork

@@ -17,6 +17,7 @@ public:
     explicit IsotropicMembrane(const MaterialParams& p);
     void evaluate(const StrainLanes& e, Want want, StressLanes& out) const override;
     FaceState state(const Vector3d& eps) const override;
+    Vector3d fabric_strain(const Vector3d& eps) const override;
     bool has_potential() const override { return separable_; }
     double rest_stiffness() const override { return k0_; }
     double largest_stiffness() const override { return k0_ > k1_ ? k0_ : k1_; }

@@ -48,6 +48,9 @@ public:
     /// Judged by the relaxed law alone: slack by strain, taut by stress. Compression `full`: by the signs of the
     /// principal stresses.
     virtual FaceState state(const Vector3d& eps) const = 0;
+    /// The strain of the fabric itself: eps + p n n^T where a face is wrinkled (across the tension the cloth folds, and
+    /// that shortening is geometry), nothing where it is slack, eps where it is taut or compression is `full`.
+    virtual Vector3d fabric_strain(const Vector3d& eps) const = 0;
     virtual bool has_potential() const = 0;
     /// True when dS/deps is so far from symmetric that its symmetric half makes a poor Newton matrix.
     virtual bool is_strongly_unsymmetric() const { return false; }

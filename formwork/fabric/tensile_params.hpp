@@ -46,9 +46,9 @@ void visit(Archive& a, TensileParams& p) {
     a.choice("control", p.control, tensile_control_names, "How the moving clamp is driven.");
     a.optional("max_strain", p.max_strain, "", positive, "Largest displacement over the length, where no measured curve says more.");
     a.optional("steps", p.steps, "", between(1, 100000), "Points of a curve, where no measured curve gives them.");
-    a.optional("rate_mm_per_min", p.rate_mm_per_min, "mm/min", positive, "Speed of the clamp; only gives the column time_s.");
+    a.optional("rate_mm_per_min", p.rate_mm_per_min, "mm/min", positive, "Speed of the clamp: time_s, where no measured history has a clock of its own.");
     a.optional("breaking_force_N", p.breaking_force_N, "N", positive, "The strip breaks here and the curve ends; with control force, the last force.");
-    a.optional("measured", p.measured, "CSV with the columns angle_deg,displacement_mm,force_N: its points are followed, and each curve ends where the measured one does.");
+    a.optional("measured", p.measured, "CSV with the columns angle_deg,displacement_mm,force_N and, if there is one, time_s: its points are followed, and each curve ends where the measured one does.");
     a.optional("resolution", p.resolution, "", between(2, 400), "Cells over the width: about 16 resolution² nodes for a strip twice as long as wide.");
 }
 

@@ -109,8 +109,13 @@ void TensorMembrane::evaluate(const StrainLanes& e, Want want, StressLanes& out)
 
 FaceState TensorMembrane::state(const Vector3d& eps) const {
     if (larger_principal(eps) <= 0) return FaceState::slack;
-    const Stiffness4 k = constant_ ? constant_sample_.k : table_.k(eps);
-    return smaller_principal(stress(k, eps)) < 0 ? FaceState::wrinkled : FaceState::taut;
+    return smaller_principal(stress(stiffness(eps), eps)) < 0 ? FaceState::wrinkled : FaceState::taut;
+}
+
+Vector3d TensorMembrane::fabric_strain(const Vector3d& eps) const {
+    const FaceState s = tension_field_ ? state(eps) : FaceState::taut;
+    if (s == FaceState::slack) return Vector3d::Zero();
+    return s == FaceState::taut ? eps : with_wrinkle(eps, wrinkle_of_constant(stiffness(eps), eps));
 }
 
 }  // namespace formwork

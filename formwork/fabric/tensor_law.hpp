@@ -18,6 +18,7 @@ public:
                    Compression compression);
     void evaluate(const StrainLanes& e, Want want, StressLanes& out) const override;
     FaceState state(const Vector3d& eps) const override;
+    Vector3d fabric_strain(const Vector3d& eps) const override;
     bool has_potential() const override { return constant_; }
     /// The table turns with the principal stretch: at 1 % strain the woven fabric's coupling of shear into warp
     /// tension is half its warp stiffness, and the symmetric half of the tangent is not even definite.
@@ -26,6 +27,7 @@ public:
     double largest_stiffness() const override { return largest_stiffness_; }
 
 private:
+    arcsim::Stiffness4 stiffness(const Vector3d& eps) const { return constant_ ? constant_sample_.k : table_.k(eps); }
     void evaluate_face(const Vector3d& eps, Want want, FaceStress& out) const;
 
     arcsim::StiffnessTable table_;

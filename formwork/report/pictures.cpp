@@ -87,6 +87,23 @@ Image picture_deviation(const Surface& shown, const std::vector<double>& distanc
         options(up, title, range_note(mm, "signed distance", "mm; positive is outside")));
 }
 
+Image picture_seam_forces(const Surface& shown, const std::vector<SeamEdgeForce>& seams,
+                          const Vector3d& up, const std::string& title) {
+    std::vector<double> force;
+    for (const SeamEdgeForce& s : seams) force.push_back(s.force_N);
+    const bool pushes = std::any_of(force.begin(), force.end(), [](double f) { return f < 0; });
+    const char* name = "force of the thread";
+    Paint paint = paint_plain();
+    paint.bar = pushes ? diverging_scale(force, name, "N") : sequential_scale(force, name, "N");
+    std::vector<Line3> lines;
+    for (const SeamEdgeForce& s : seams) {
+        const double at = (s.force_N - paint.bar->low) / (paint.bar->high - paint.bar->low);
+        lines.push_back({{shown.x[s.node[0]], shown.x[s.node[1]]}, map_colour(paint.bar->map, at), 6});
+    }
+    return render_surface(shown, paint, lines, {},
+                          options(up, title, range_note(force, "force", "N; below 0 it pushes")));
+}
+
 Image picture_cross_field(const Surface& shown, const std::vector<double>& theta,
                           const std::vector<DirectionData>& data,
                           const std::vector<Singularity>& singularities, const Vector3d& up,

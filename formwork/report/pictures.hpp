@@ -5,6 +5,7 @@
 
 #include "formwork/panels/flat_panel.hpp"
 #include "formwork/report/render_surface.hpp"
+#include "formwork/report/seam_edge_force.hpp"
 #include "formwork/segment/segmentation.hpp"
 #include "formwork/strain/strain_field.hpp"
 
@@ -27,6 +28,10 @@ Image picture_shear(const Surface& shown, const StrainField& strain, const Vecto
 /// Signed distance from a surface, per node, m; drawn in mm. Positive: outside it.
 Image picture_deviation(const Surface& shown, const std::vector<double>& distance,
                         const Vector3d& up, const std::string& title);
+
+/// Seams in the colour of their threads' forces.
+Image picture_seam_forces(const Surface& shown, const std::vector<SeamEdgeForce>& seams,
+                          const Vector3d& up, const std::string& title);
 
 /// Crosses along the directions, coloured by their weight where data is given. @param theta  per
 /// face, from edge v0->v1

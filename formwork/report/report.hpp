@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "formwork/panels/flat_panel.hpp"
+#include "formwork/report/seam_edge_force.hpp"
 #include "formwork/segment/segmentation.hpp"
 #include "formwork/strain/strain_field.hpp"
 
@@ -52,6 +53,7 @@ struct ReportInput {
     std::vector<double>
         deviation;  // per node of segmentation->mesh: signed distance, m; positive outside
     std::string deviation_from;  // of what: "the surface that was cut", "the target"
+    std::vector<SeamEdgeForce> seam_forces;  // of the sewn bag
 
     std::vector<ReportStep> sewing_order;
     std::vector<ConvergenceCurve> convergence;

@@ -109,6 +109,12 @@ void add_sewn(std::vector<Task>& tasks, const ReportInput& in) {
                                  return picture_states(shown, in.sewn_strain, in.up, t);
                              }});
     }
+    if (!in.seam_forces.empty())
+        tasks.push_back({"sewn_seams", "Sewn bag: forces of the seams",
+                         "Tension of the seams' threads in the filled bag.",
+                         [=, &in](const std::string& t) {
+                             return picture_seam_forces(shown, in.seam_forces, in.up, t);
+                         }});
     if (!in.deviation.empty())
         tasks.push_back({"sewn_deviation", "Sewn bag: deviation",
                          "Signed distance of the sewn bag from " + in.deviation_from + ".",

@@ -32,26 +32,41 @@ double line_load(const SewnBag& bag, const EquilibriumResult& r, const MembraneL
     return (F * s * normal).norm();
 }
 
-double spring_tension(const SeamSpring& s, const EquilibriumResult& r) {
-    return s.kappa * ((r.x[s.j] - r.x[s.i]).norm() - s.L);
+/// Force of a spring as the equilibrium has it: none where a slack one is shorter than at rest.
+double spring_force(const SeamSpring& s, const EquilibriumResult& r) {
+    const double longer = (r.x[s.j] - r.x[s.i]).norm() - s.L;
+    return s.goes_slack && longer < 0 ? 0 : s.kappa * longer;
 }
 
 }  // namespace
 
-std::vector<SeamLoad> measure_seams(const SewnBag& bag, const SewParams& params, const EquilibriumResult& result, int n_seams) {
+std::vector<SeamEdgeLoad> measure_seam_edges(const SewnBag& bag, const SewParams& params, const EquilibriumResult& result) {
     const std::unique_ptr<MembraneLaw> law = make_membrane_law(params.material);
+    const bool stitched = params.seams == SeamModel::stitch;   // a spring along either side
+    std::vector<SeamEdgeLoad> loads;
+    for (size_t k = 0; k < bag.edges.size(); ++k) {
+        const SeamEdge& e = bag.edges[k];
+        SeamEdgeLoad load;
+        load.thread_force = stitched ? spring_force(bag.springs[2 * k], result) + spring_force(bag.springs[2 * k + 1], result)
+                                     : spring_force(bag.springs[k], result);
+        for (int face : e.face) load.line_load = std::max(load.line_load, line_load(bag, result, *law, face, e.node[0], e.node[1]));
+        loads.push_back(load);
+    }
+    return loads;
+}
+
+std::vector<SeamLoad> measure_seams(const SewnBag& bag, const std::vector<SeamEdgeLoad>& edges, const EquilibriumResult& result,
+                                    int n_seams) {
     std::vector<SeamLoad> loads(n_seams);
-    const bool stitched = params.seams == SeamModel::stitch;
     for (int s = 0; s < n_seams; ++s) loads[s].seam = s;
     for (size_t k = 0; k < bag.edges.size(); ++k) {
         const SeamEdge& e = bag.edges[k];
         SeamLoad& load = loads[e.seam];
-        const double thread = stitched ? spring_tension(bag.springs[2 * k], result) + spring_tension(bag.springs[2 * k + 1], result)
-                                       : spring_tension(bag.springs[k], result);
         load.length += e.length;
-        load.thread_force_max = std::max(load.thread_force_max, thread);
-        load.thread_force_mean += e.length * std::max(thread, 0.0);
-        for (int face : e.face) load.line_load_max = std::max(load.line_load_max, line_load(bag, result, *law, face, e.node[0], e.node[1]));
+        load.thread_force_max = std::max(load.thread_force_max, edges[k].thread_force);
+        load.thread_force_min = std::min(load.thread_force_min, edges[k].thread_force);
+        load.thread_force_mean += e.length * edges[k].thread_force;
+        load.line_load_max = std::max(load.line_load_max, edges[k].line_load);
     }
     for (SeamLoad& load : loads)
         if (load.length > 0) load.thread_force_mean /= load.length;

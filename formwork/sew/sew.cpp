@@ -8,6 +8,36 @@
 namespace formwork {
 namespace {
 
+bool is_shorter(const SeamSpring& s, const std::vector<Vector3d>& x) { return s.L > 0 && (x[s.j] - x[s.i]).norm() < s.L; }
+
+/// What two solves cost together; the second one's answer.
+EquilibriumResult after(const EquilibriumResult& first, EquilibriumResult second) {
+    second.iterations += first.iterations;
+    second.factorizations += first.factorizations;
+    second.wall_s += first.wall_s;
+    second.cpu_s += first.cpu_s;
+    second.history.insert(second.history.begin(), first.history.begin(), first.history.end());
+    return second;
+}
+
+/// Springs that push have many equilibria (SewParams). Of these the one is taken into which the bag with slack threads,
+/// whose state is one, goes when its threads begin to push: it does not depend on where the search began.
+EquilibriumResult find_sewn_equilibrium(EquilibriumProblem problem) {
+    const std::vector<SeamSpring> literal = problem.seams;
+    for (SeamSpring& s : problem.seams) s.goes_slack = s.goes_slack || s.L > 0;
+    const EquilibriumResult relaxed = find_equilibrium(problem);
+    const auto pushes = [&](const SeamSpring& s) { return !s.goes_slack && is_shorter(s, relaxed.x); };
+    if (std::none_of(literal.begin(), literal.end(), pushes)) return relaxed;   // it is an equilibrium of both
+    problem.seams = literal;
+    problem.start = relaxed.x;
+    try {
+        return after(relaxed, find_equilibrium(problem));
+    } catch (const EquilibriumError& e) {
+        throw EquilibriumError(std::string(e.what()) + ". With threads that go slack there is an equilibrium: set "
+                               "/formwork/sew/thread_compression to \"slack\"", *e.last);
+    }
+}
+
 GrainVariant run_variant(const std::string& name, const SewInput& input, const SewParams& params, const SewResult& aligned,
                          const SurfaceDistance& cut, const std::vector<double>& area,
                          const std::function<void(const std::string&, const IterationReport&)>& on_iteration) {
@@ -19,12 +49,15 @@ GrainVariant run_variant(const std::string& name, const SewInput& input, const S
     problem.start = aligned.equilibrium.x;   // of all known shapes the nearest
     if (on_iteration) problem.on_iteration = [&](const IterationReport& r) { on_iteration(name, r); };
     try {
-        const EquilibriumResult r = find_equilibrium(problem);
+        const EquilibriumResult r = find_sewn_equilibrium(std::move(problem));
         const WeaveMeasures weave = measure_weave(r, params.material, area, params.strength);
         const Deviation shape = deviation({r.x, bag.cut.faces}, cut);
         v.mean_abs_shear = weave.abs_shear.mean;
         v.p95_abs_shear = weave.abs_shear.p95;
         v.max_abs_shear = weave.abs_shear.max;
+        v.fabric_mean_abs_shear = weave.fabric_abs_shear.mean;
+        v.taut_mean_abs_shear = weave.taut_mean_abs_shear;
+        v.angle_histogram = weave.angle_histogram;
         v.max_tension_N_per_m = weave.tension.max;
         v.shape_rms_m = shape.rms;
         v.shape_max_m = shape.max;
@@ -63,14 +96,16 @@ SewResult sew_bag(const SewInput& input, const SewParams& params,
     result.bag = make_sewn_bag(input, params);
     EquilibriumProblem problem = sewn_problem(input, params, result.bag);
     if (on_iteration) problem.on_iteration = [&](const IterationReport& r) { on_iteration("sew", r); };
-    result.equilibrium = find_equilibrium(problem);
+    result.equilibrium = find_sewn_equilibrium(std::move(problem));
 
     std::vector<double> area;
     for (int f = 0; f < s.mesh.n_faces(); ++f) area.push_back(arcsim::face_area(s.mesh, f));
     result.weave = measure_weave(result.equilibrium, params.material, area, params.strength);
-    result.seams = measure_seams(result.bag, params, result.equilibrium, static_cast<int>(s.seams.size()));
+    result.seam_edges = measure_seam_edges(result.bag, params, result.equilibrium);
+    result.seams = measure_seams(result.bag, result.seam_edges, result.equilibrium, static_cast<int>(s.seams.size()));
     for (const SeamLoad& load : result.seams) {
         result.seam_max_force_N = std::max(result.seam_max_force_N, load.thread_force_max);
+        result.seam_max_compression_N = std::max(result.seam_max_compression_N, -load.thread_force_min);
         result.seam_max_line_load_N_per_m = std::max(result.seam_max_line_load_N_per_m, load.line_load_max);
         result.seam_gap_max_m = std::max(result.seam_gap_max_m, load.gap_max);
     }

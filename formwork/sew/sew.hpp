@@ -15,9 +15,11 @@ struct GrainVariant {
     std::string name;               // "rotated_45", "random"
     std::string failure;            // empty, or why there is no equilibrium to show; then nothing below counts
     double mean_abs_shear = 0, p95_abs_shear = 0, max_abs_shear = 0;
+    double fabric_mean_abs_shear = 0, taut_mean_abs_shear = 0;   // as WeaveMeasures has them
     double shape_rms_m = 0, shape_max_m = 0, depth_m = 0, max_tension_N_per_m = 0;
     double residual = 0;
     int wrinkled_faces = 0, iterations = 0, factorizations = 0;
+    std::vector<double> angle_histogram;
 };
 
 /// The sewn, filled bag and what it answers.
@@ -25,8 +27,10 @@ struct SewResult {
     SewnBag bag;
     EquilibriumResult equilibrium;
     WeaveMeasures weave;
+    std::vector<SeamEdgeLoad> seam_edges;   // per edge of bag.edges
     std::vector<SeamLoad> seams;         // per seam of the segmentation; rims carry zeros
     double seam_max_force_N = 0;         // of the thread
+    double seam_max_compression_N = 0;   // with thread_compression full; 0 or above
     double seam_max_line_load_N_per_m = 0;
     double seam_gap_max_m = 0;
     Deviation from_cut;                  // against the surface that was cut

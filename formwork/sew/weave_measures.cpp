@@ -30,6 +30,7 @@ FaceWeave weave_of(const FaceStrain& f, const MembraneLaw& law) {
     w.tension_warp = w.stretch_warp * S[0];
     w.tension_weft = w.stretch_weft * S[1];
     w.tension_max = largest_tension(S, eps);
+    w.fabric_shear = law.fabric_strain(eps)[2];
     return w;
 }
 
@@ -58,16 +59,15 @@ WeaveMeasures measure_weave(const EquilibriumResult& result, const MaterialParam
                             const std::optional<double>& strength) {
     const std::unique_ptr<MembraneLaw> law = make_membrane_law(material);
     WeaveMeasures m;
-    std::vector<double> shear, warp, weft, cosine, tension;
+    std::vector<double> shear, fabric_shear, warp, weft, cosine, tension;
     double taut_area = 0;
-    constexpr int bins = 10;
-    constexpr double bin_deg = 5;
-    m.angle_histogram_deg.assign(bins, 0.0);
+    m.angle_histogram.assign(n_angle_bins, 0.0);
     const double total = std::accumulate(area.begin(), area.end(), 0.0);
     for (size_t f = 0; f < result.strain.size(); ++f) {
         const FaceStrain& e = result.strain[f];
         m.face.push_back(weave_of(e, *law));
         shear.push_back(std::abs(e.eps_uv));
+        fabric_shear.push_back(std::abs(m.face.back().fabric_shear));
         warp.push_back(e.eps_uu);
         weft.push_back(e.eps_vv);
         cosine.push_back(m.face.back().cos_angle);
@@ -77,14 +77,16 @@ WeaveMeasures measure_weave(const EquilibriumResult& result, const MaterialParam
             m.taut_mean_abs_shear += area[f] * shear.back();
         }
         const double off = std::asin(std::clamp(std::abs(cosine.back()), 0.0, 1.0)) * 180 / std::numbers::pi;
-        m.angle_histogram_deg[std::min(static_cast<int>(off / bin_deg), bins - 1)] += area[f] / total;
+        m.angle_histogram[std::min(static_cast<int>(off / angle_bin_deg), n_angle_bins - 1)] += area[f] / total;
     }
     m.abs_shear = spread(shear, area);
+    m.fabric_abs_shear = spread(fabric_shear, area);
     m.eps_warp = spread(warp, area);
     m.eps_weft = spread(weft, area);
     m.cos_angle = spread(cosine, area);
     m.tension = spread(tension, area);
     if (taut_area > 0) m.taut_mean_abs_shear /= taut_area;
+    m.taut_share = total > 0 ? taut_area / total : 0;
     if (strength) m.utilisation = m.tension.max / *strength;
     return m;
 }

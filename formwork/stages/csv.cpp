@@ -45,6 +45,7 @@ CsvFile::CsvFile(const std::filesystem::path& file, const std::vector<std::strin
             rows_.push_back(std::move(row));
         }
     }
+    n_columns_ = static_cast<int>(width);
     if (line_number == 0) throw InputError(name_ + ": is empty. Run the stage that writes it again.");
 }
 

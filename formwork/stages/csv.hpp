@@ -12,6 +12,7 @@ class CsvFile {
 public:
     /// @throws InputError: unreadable, another header than `columns` (more columns may follow), a row of another length
     CsvFile(const std::filesystem::path& file, const std::vector<std::string>& columns);
+    int n_columns() const { return n_columns_; }
     int n_rows() const { return static_cast<int>(rows_.size()); }
     double number(int row, int column) const;   ///< @throws InputError naming file and line
     int integer(int row, int column, int low, int high) const;   ///< in [low, high); @throws InputError
@@ -19,6 +20,7 @@ public:
 
 private:
     std::string name_;
+    int n_columns_ = 0;
     std::vector<std::vector<std::string>> rows_;
 };
 

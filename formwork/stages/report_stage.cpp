@@ -5,6 +5,7 @@
 #include "arcsim/mesh/obj_io.hpp"
 #include "formwork/panels/sewing_order.hpp"
 #include "formwork/report/report_pictures.hpp"
+#include "formwork/stages/csv.hpp"
 #include "formwork/stages/segmentation_file.hpp"
 #include "formwork/stages/stage.hpp"
 #include "formwork/stages/strain_file.hpp"
@@ -24,6 +25,21 @@ std::vector<double> residual_history(const JsonValue& stage) {
     if (const JsonValue* v = stage.find("residual_history"))
         for (const JsonValue& item : v->items) history.push_back(item.number);
     return history;
+}
+
+/// Deviation and seam forces. A given target is what the user wants to see the distance from.
+void read_sewn_measures(const fs::path& folder, ReportInput& in) {
+    const Surface& mesh = in.segmentation->mesh;
+    const CsvFile deviation(folder / "deviation.csv", {"vertex", "from_cut_m", "from_inflated_m"});
+    const bool has_target = deviation.n_columns() > 3;
+    in.deviation_from = has_target ? "the target" : "the surface that was cut";
+    for (int i = 0; i < deviation.n_rows(); ++i) in.deviation.push_back(deviation.number(i, has_target ? 3 : 1));
+    // Further nodes are second sides of stitched seams, which gap by less than a picture shows.
+    in.deviation.resize(mesh.x.size());
+    in.sewn.resize(mesh.x.size());
+    const CsvFile edges(folder / "seam_edges.csv", {"seam", "vertex_a", "vertex_b", "length_m", "thread_force_N"});
+    for (int i = 0; i < edges.n_rows(); ++i)
+        in.seam_forces.push_back({{edges.integer(i, 1, 0, mesh.n_nodes()), edges.integer(i, 2, 0, mesh.n_nodes())}, edges.number(i, 4)});
 }
 
 /// Everything that the stages left in the folder.
@@ -53,6 +69,7 @@ ReportInput gather(const StageContext& context, const JsonValue& summary) {
         in.sewn = arcsim::read_obj(context.dir / "sew/sewn.obj").x;
         in.sewn_strain = read_strain(context.dir / "sew", in.segmentation->mesh.n_faces());
         in.convergence.push_back({"sew", residual_history(*summary.find("sew"))});
+        read_sewn_measures(context.dir / "sew", in);
     }
     return in;
 }
@@ -64,6 +81,10 @@ JsonValue run_report(const StageContext& context) {
     ReportInput in = gather(context, summary);
     context.progress.update({});
     in.pictures = draw_pictures(in);
+    const fs::path angles = context.dir / "sew/weave_angle.png";
+    if (has(summary, "sew") && fs::exists(angles))
+        in.pictures.push_back({"sewn_weave_angle", "Sewn bag: angle of the weave",
+                               "How much of the cloth has warp and weft off square, and by how much.", arcsim::read_text_file(angles)});
     JsonValue names = JsonValue::array();
     for (const ReportPicture& picture : in.pictures) {
         const std::string name = "pictures/" + picture.name + ".png";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <sstream>
 
@@ -16,6 +17,7 @@ namespace {
 struct Goal {
     double value;
     double measured_force_N = 0, measured_displacement_mm = 0;
+    double time_s = -1;   // of the prescribed history; below 0: the clamp's path gives it
 };
 
 std::vector<Goal> goals_of(const TensileParams& p, const MeasuredCurve* measured) {
@@ -24,7 +26,9 @@ std::vector<Goal> goals_of(const TensileParams& p, const MeasuredCurve* measured
     if (measured) {
         for (size_t i = 0; i < measured->force_N.size(); ++i) {
             const double d = measured->displacement_mm[i], F = measured->force_N[i];
-            if (d > 0 && F > 0) goals.push_back({by_force ? F : 1e-3 * d, F, d});
+            // Clamp and force are synchronised by time (§10); without a clock the clamp's constant speed is one.
+            const double time = measured->time_s.empty() ? 60 * d / p.rate_mm_per_min : measured->time_s[i];
+            if (d > 0 && F > 0) goals.push_back({by_force ? F : 1e-3 * d, F, d, time});
         }
         return goals;
     }
@@ -35,6 +39,32 @@ std::vector<Goal> goals_of(const TensileParams& p, const MeasuredCurve* measured
     return goals;
 }
 
+/// Takes the strip to a goal, or to its breaking force where that comes first.
+/// @returns whether it broke
+bool follow(const TensileParams& p, const StripLaw& law, ClampedStrip& strip, const Goal& goal, StripState& s) {
+    const double strength = p.breaking_force_N.value_or(std::numeric_limits<double>::infinity());
+    if (p.control == TensileControl::force) {
+        s = strip.load_to(law, s, std::min(goal.value, strength));
+        return goal.value >= strength;
+    }
+    constexpr double largest_strain_step = 0.005;   // a corner of a soft weave can otherwise jump to another branch
+    const double from = s.displacement;
+    const int n = std::max(1, static_cast<int>(std::ceil((goal.value - from) / (largest_strain_step * 1e-3 * p.length_mm) - 1e-9)));
+    for (int i = 1; i <= n; ++i) {
+        StripState next = strip.pull_to(law, s, i == n ? goal.value : from + i * (goal.value - from) / n);
+        if (next.force < strength) {
+            s = std::move(next);
+            continue;
+        }
+        // It breaks on the way: the force is known there, the displacement is not.
+        const int iterations = next.iterations;
+        s = strip.load_to(law, s, strength);
+        s.iterations = std::max(s.iterations, iterations);
+        return true;
+    }
+    return false;
+}
+
 TensileCurve pull(const TensileParams& p, const StripLaw& law, double angle_deg, const std::vector<Goal>& goals,
                   const std::function<void()>& done) {
     ClampedStrip strip(make_strip(1e-3 * p.length_mm, 1e-3 * p.width_mm, p.resolution), angle_deg * std::numbers::pi / 180);
@@ -42,19 +72,13 @@ TensileCurve pull(const TensileParams& p, const StripLaw& law, double angle_deg,
     curve.angle_deg = angle_deg;
     curve.nodes = static_cast<int>(strip.mesh().X.size());
     StripState s = strip.at_rest();
-    constexpr double largest_strain_step = 0.005;   // a corner of a soft weave can otherwise jump to another branch
     for (const Goal& goal : goals) {
-        if (p.control == TensileControl::force) {
-            s = strip.load_to(law, s, goal.value);
-        } else {
-            const double from = s.displacement;
-            const int n = std::max(1, static_cast<int>(std::ceil((goal.value - from) / (largest_strain_step * 1e-3 * p.length_mm) - 1e-9)));
-            for (int i = 1; i <= n; ++i) s = strip.pull_to(law, s, i == n ? goal.value : from + i * (goal.value - from) / n);
-        }
+        curve.broke = follow(p, law, strip, goal, s);
         TensilePoint t;
         t.displacement_mm = 1e3 * s.displacement;
         t.force_N = s.force;
-        t.time_s = 60 * t.displacement_mm / p.rate_mm_per_min;
+        const bool clocked = goal.time_s >= 0 && !curve.broke;
+        t.time_s = clocked ? goal.time_s : 60 * t.displacement_mm / p.rate_mm_per_min;
         t.stiffness_N_per_mm = 1e-3 * s.stiffness;
         t.mid_width_mm = 2e3 * strip.mid_half_width(s);
         t.residual = s.residual;
@@ -62,10 +86,7 @@ TensileCurve pull(const TensileParams& p, const StripLaw& law, double angle_deg,
         t.measured_displacement_mm = goal.measured_displacement_mm;
         curve.points.push_back(t);
         done();
-        if (p.breaking_force_N && s.force >= *p.breaking_force_N * (1 - 1e-12)) {
-            curve.broke = true;
-            break;
-        }
+        if (curve.broke) break;
     }
     curve.iterations = s.iterations;
     return curve;

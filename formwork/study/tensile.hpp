@@ -22,7 +22,7 @@ struct TensilePoint {
 struct TensileCurve {
     double angle_deg = 0;
     std::vector<TensilePoint> points;   // without the start at rest
-    bool broke = false;                 // ended at the breaking force
+    bool broke = false;                 // ended at the breaking force, which its last point has
     int iterations = 0, nodes = 0;
     double misfit = -1;                 // rms of (simulated - measured force) over the largest measured one; -1: nothing measured
 };

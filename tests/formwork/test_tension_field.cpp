@@ -143,6 +143,24 @@ TEST_CASE("the orthotropic relaxed energy is the minimum over all wrinkle strain
     REQUIRE(wrinkled > 50);
 }
 
+TEST_CASE("the fabric's own strain is the face's plus a wrinkle, and carries the same stress") {
+    std::mt19937 random(8);
+    for (const auto& law : relaxed_laws())
+        for (int i = 0; i < 2000; ++i) {
+            const Vector3d e = random_strain(random), own = law->fabric_strain(e), P = own - e;
+            const FaceState state = law->state(e);
+            INFO(e.transpose() << " state " << to_string(state));
+            if (state == FaceState::slack) REQUIRE(own.norm() == 0);
+            if (state == FaceState::taut) REQUIRE(P.norm() == 0);
+            if (state != FaceState::wrinkled) continue;
+            REQUIRE(P[0] + P[1] >= 0);   // positive semidefinite, of rank one
+            REQUIRE(P[0] * P[1] - P[2] * P[2] == Approx(0).margin(1e-12));
+            // Where stiffness is constant, or read at the larger principal strain alone, it is the same law's stress.
+            if (!law->has_potential()) continue;
+            REQUIRE((evaluate_one(*law, own).S - evaluate_one(*law, e).S).norm() < 1e-9 * law->rest_stiffness());
+        }
+}
+
 TEST_CASE("homogeneous patches carry the exact forces, on any triangles (B1)") {
     // Forces per rest width of a stretched square, by the law alone: x = F u on every face.
     for (const auto& c : reference::data().at("b1").at("stretch")) {

@@ -1,7 +1,11 @@
 #include <catch2/catch.hpp>
+#include <cstdio>
+#include <fstream>
 #include <numbers>
 
 #include "formwork/study/clamped_strip.hpp"
+#include "formwork/study/tensile.hpp"
+#include "tests/paths.hpp"
 
 using namespace formwork;
 
@@ -92,6 +96,55 @@ TEST_CASE("a prescribed force finds the displacement that would have given it") 
     const StripState loaded = strip.load_to(law, strip.at_rest(), moved.force);
     CHECK(loaded.displacement == Approx(8e-4).epsilon(1e-8));
     CHECK(loaded.force == Approx(moved.force).epsilon(1e-10));
+}
+
+TEST_CASE("a curve ends at the breaking force exactly, in time with the clamp") {
+    TensileParams p;
+    p.material.data = {"woven_table3.json", project_dir() + "/conf/materials/woven_table3.json"};
+    p.angles_deg = {0, 22.5, 45};
+    p.max_strain = 0.3;
+    p.steps = 6;
+    p.resolution = 3;
+    p.breaking_force_N = 350;
+    for (const TensileCurve& c : run_tensile(p)) {
+        INFO(c.angle_deg);
+        REQUIRE(c.broke);
+        CHECK(c.points.back().force_N == Approx(350).epsilon(1e-9));
+        for (size_t i = 0; i < c.points.size(); ++i) {
+            const TensilePoint& t = c.points[i];
+            CHECK(t.time_s == Approx(60 * t.displacement_mm / 2));   // 2 mm/min
+            if (i > 0) CHECK(t.force_N > c.points[i - 1].force_N);
+            if (i + 1 < c.points.size()) CHECK(t.displacement_mm == Approx(2.0 * static_cast<double>(i + 1)));
+        }
+    }
+    p.control = TensileControl::force;
+    const std::vector<TensileCurve> by_force = run_tensile(p);
+    p.control = TensileControl::displacement;
+    const std::vector<TensileCurve> by_displacement = run_tensile(p);
+    for (size_t i = 0; i < by_force.size(); ++i) {
+        CHECK(by_force[i].broke);
+        CHECK(by_force[i].points.back().displacement_mm == Approx(by_displacement[i].points.back().displacement_mm).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("a measured history of forces is followed in its own time") {
+    const std::string file = "measured_history_test.csv";
+    std::ofstream(file) << "angle_deg,displacement_mm,force_N,time_s\n0,0.05,4,1\n0,0.1,9,2.5\n0,0.2,20,7\n";
+    TensileParams p;
+    p.material.data = {"woven_table3.json", project_dir() + "/conf/materials/woven_table3.json"};
+    p.measured = arcsim::InputFile{file, file};
+    p.control = TensileControl::force;
+    p.resolution = 3;
+    const std::vector<TensileCurve> curves = run_tensile(p);
+    std::remove(file.c_str());
+    REQUIRE(curves.size() == 1);
+    REQUIRE(curves[0].points.size() == 3);
+    const double force[] = {4, 9, 20}, time[] = {1, 2.5, 7};
+    for (int i = 0; i < 3; ++i) {
+        CHECK(curves[0].points[i].force_N == Approx(force[i]));
+        CHECK(curves[0].points[i].time_s == Approx(time[i]));
+    }
+    CHECK(curves[0].misfit >= 0);
 }
 
 TEST_CASE("an isotropic strip does not care how it was cut, and equals the tensor with k_ss = k_uu - k_uv") {
