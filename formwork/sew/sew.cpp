@@ -109,6 +109,10 @@ SewResult sew_bag(const SewInput& input, const SewParams& params,
         result.seam_max_line_load_N_per_m = std::max(result.seam_max_line_load_N_per_m, load.line_load_max);
         result.seam_gap_max_m = std::max(result.seam_gap_max_m, load.gap_max);
     }
+    // With stitches a thread runs along either side of a seam.
+    const auto shorter = std::count_if(result.bag.springs.begin(), result.bag.springs.end(),
+                                       [&](const SeamSpring& e) { return is_shorter(e, result.equilibrium.x); });
+    result.shorter_seam_edges = static_cast<int>(shorter) / (params.seams == SeamModel::stitch ? 2 : 1);
     const Surface shape{result.equilibrium.x, result.bag.cut.faces};
     const SurfaceDistance cut(s.mesh);
     result.from_cut = deviation(shape, cut);

@@ -29,6 +29,7 @@ struct SewResult {
     WeaveMeasures weave;
     std::vector<SeamEdgeLoad> seam_edges;   // per edge of bag.edges
     std::vector<SeamLoad> seams;         // per seam of the segmentation; rims carry zeros
+    int shorter_seam_edges = 0;          // than at rest: there a slack thread does nothing
     double seam_max_force_N = 0;         // of the thread
     double seam_max_compression_N = 0;   // with thread_compression full; 0 or above
     double seam_max_line_load_N_per_m = 0;

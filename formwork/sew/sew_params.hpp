@@ -25,7 +25,7 @@ inline constexpr std::array seam_model_names{
 enum class ThreadCompression { slack, full };
 inline constexpr std::array thread_compression_names{
     arcsim::EnumName{ThreadCompression::slack, "slack", "nothing: a thread cannot push"},
-    arcsim::EnumName{ThreadCompression::full, "full", "it pushes, as (10) reads: the shape may then depend on the start"}};
+    arcsim::EnumName{ThreadCompression::full, "full", "it pushes, as (10) reads: many equilibria; the one nearest to the slack bag is taken"}};
 
 /// Where the search for the sewn equilibrium begins; the result must not depend on it.
 enum class SewStart { inflated, rest };
@@ -35,9 +35,15 @@ inline constexpr std::array sew_start_names{
 
 /// Keys of `formwork.sew`.
 ///
-/// The thread goes slack by default. (10) as it is written also pushes, and a chain of springs that push, without
-/// bending stiffness, has several equilibria: a woven sock of 15 cm whose bottom seam is compressed by the wall
-/// ended 18 mm deeper from the inflated than from the rest shape. In tension both are (10).
+/// In tension the thread is (10). Where its edge becomes shorter than L, (10) as it is written pushes ("full"), and SYSTEM
+/// row 11 keeps that; the default departs from it ("slack"), for the reason of row 14. A chain of springs that push and do
+/// not bend gives way sideways at 4 P / L of lateral stiffness, P the push: any push wins over the membrane's tension once
+/// the mesh is fine, every node may fold to either side, and the energy has as many minima. ½ kappa (l - L)²₊, the slack
+/// thread, is the convex envelope of ½ kappa (l - L)² over x_ij: what the folded chain carries on average, exactly as the
+/// tension field is for the cloth beside it. It has one state, and finer meshes approach it. Measured (SEWN.md): in the
+/// filled bags a third to three quarters of all seam edges are shorter than at rest; from either start slack threads end
+/// in one state; pushing threads end up to 3 mm apart, or find no equilibrium from one of the starts.
+/// "full" therefore begins where the slack bag has come to rest (find_sewn_equilibrium): one state from either start.
 struct SewParams {
     MaterialParams material = [] {
         MaterialParams m;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "arcsim/base/files.hpp"
 #include "arcsim/base/text.hpp"
@@ -42,6 +43,16 @@ void read_sewn_measures(const fs::path& folder, ReportInput& in) {
         in.seam_forces.push_back({{edges.integer(i, 1, 0, mesh.n_nodes()), edges.integer(i, 2, 0, mesh.n_nodes())}, edges.number(i, 4)});
 }
 
+/// Where the seams are pressed together, and what the model makes of it: SewParams departs from (10) there.
+std::string seam_note(const JsonValue& sew, const SewParams& params) {
+    const JsonValue *edges = sew.find("seam_edges"), *shorter = sew.find("seam_edges_shorter");
+    if (!edges || !shorter) return "Seams: run the stage sew again for their state.";
+    return "Seams: " + std::to_string(std::lround(shorter->number)) + " of " + std::to_string(std::lround(edges->number)) +
+           " edges are shorter than at rest; there the thread " +
+           (params.thread_compression == ThreadCompression::slack ? "is slack (sew.thread_compression: slack)."
+                                                                  : "pushes, as equation 10 reads (sew.thread_compression: full).");
+}
+
 /// Everything that the stages left in the folder.
 ReportInput gather(const StageContext& context, const JsonValue& summary) {
     const FormworkScene& scene = context.scene;
@@ -70,6 +81,7 @@ ReportInput gather(const StageContext& context, const JsonValue& summary) {
         in.sewn_strain = read_strain(context.dir / "sew", in.segmentation->mesh.n_faces());
         in.convergence.push_back({"sew", residual_history(*summary.find("sew"))});
         read_sewn_measures(context.dir / "sew", in);
+        in.notes.push_back(seam_note(*summary.find("sew"), *scene.formwork.sew));
     }
     return in;
 }

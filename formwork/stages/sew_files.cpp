@@ -130,6 +130,8 @@ void add_sew_summary(const SewResult& r, JsonValue& v) {
     v.set("max_tension_N_per_m", r.weave.tension.max);
     v.set("p95_tension_N_per_m", r.weave.tension.p95);
     if (r.weave.utilisation) v.set("utilisation", *r.weave.utilisation);
+    v.set("seam_edges", static_cast<int>(r.bag.edges.size()));
+    v.set("seam_edges_shorter", r.shorter_seam_edges);
     v.set("seam_max_force_N", r.seam_max_force_N);
     v.set("seam_max_compression_N", r.seam_max_compression_N);
     v.set("seam_max_line_load_N_per_m", r.seam_max_line_load_N_per_m);
