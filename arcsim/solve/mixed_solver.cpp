@@ -1,7 +1,6 @@
 #include <limits>
 
 #include "arcsim/base/error.hpp"
-#include "arcsim/solve/pcg.hpp"
 #include "arcsim/solve/solvers.hpp"
 
 namespace arcsim {
@@ -29,6 +28,7 @@ public:
     bool try_factorize(const BlockMatrix& A) override {
         A_ = &A;
         needs_exact_ = !single_->try_factorize(A);
+        if (!needs_exact_) inverse_diagonal_ = A.diagonal().cwiseInverse();
         const bool ok = !needs_exact_ || factorize_exactly();
         if (!ok) A_ = nullptr;
         take_cost();
@@ -42,9 +42,7 @@ public:
             return;
         }
         if (!needs_exact_) {
-            const auto multiply = [this](const VectorXd& v, VectorXd& y) { A_->multiply_symmetric(v, y); };
-            const PcgOutcome out = pcg_.solve(multiply, *single_, b, tolerance, most_iterations, x);
-            if (out.status == PcgStatus::converged) return;
+            if (conjugate_gradients(b, x)) return;
             needs_exact_ = true;
             exact_of_ = nullptr;
         }
@@ -57,6 +55,36 @@ public:
     }
 
 private:
+    /// @returns false when they meet negative curvature or need too many iterations. The last residual is not solved for
+    /// once more: how far it has fallen beside the one before, in the diagonal's norm, tells the energy's well enough.
+    bool conjugate_gradients(const VectorXd& b, VectorXd& x) const {
+        constexpr double margin = 1e-2;   // of that estimate
+        const auto diagonal_norm2 = [&] { return r_.cwiseAbs2().dot(inverse_diagonal_); };
+        x.setZero(b.size());
+        r_ = b;
+        single_->solve(r_, z_);
+        p_ = z_;
+        double energy = r_.dot(z_), size = diagonal_norm2();   // rᵀ A⁻¹ r (nearly) and rᵀ D⁻¹ r
+        if (size == 0) return true;
+        const double target = tolerance * tolerance * energy;
+        for (int i = 0; i < most_iterations; ++i) {
+            A_->multiply_symmetric(p_, Ap_);
+            const double curvature = p_.dot(Ap_);
+            if (!(energy > 0) || !(curvature > 0)) return false;
+            const double alpha = energy / curvature;
+            x += alpha * p_;
+            r_ -= alpha * Ap_;
+            const double size_before = size;
+            size = diagonal_norm2();
+            if (energy * size / size_before <= margin * margin * target) return true;
+            single_->solve(r_, z_);
+            const double next = r_.dot(z_);
+            if (next <= target) return true;
+            p_ = z_ + (next / energy) * p_;
+            energy = next;
+        }
+        return false;
+    }
     void make_exact() const {
         if (!exact_) exact_ = make_cholmod();
     }
@@ -80,7 +108,8 @@ private:
     const BlockMatrix* A_ = nullptr;
     mutable const BlockMatrix* exact_of_ = nullptr;
     mutable bool needs_exact_ = false;
-    mutable FactorPcg pcg_;
+    VectorXd inverse_diagonal_;
+    mutable VectorXd r_, z_, p_, Ap_;
 };
 
 }  // namespace

@@ -95,14 +95,30 @@ inline void scatter_add(Real* base, const std::int32_t* to, const Vec<Real>& val
 #endif
 }
 
-/// Sum of a vector's lanes.
+template <class Real>
+using Indices [[gnu::vector_size(vector_bytes)]] = std::conditional_t<sizeof(Real) == 4, std::int32_t, std::int64_t>;
+
+/// 0, 1, 2, ...
+template <class Real>
+inline Indices<Real> lane_numbers() {
+    Indices<Real> lane;
+    for (int i = 0; i < lanes<Real>; ++i) lane[i] = i;
+    return lane;
+}
+
+/// v at lanes c and later, zero before; and at lanes up to c, zero after.
+template <class Real>
+inline Vec<Real> from_lane(const Vec<Real>& v, int c) {
+    return lane_numbers<Real>() >= c ? v : Vec<Real>{};
+}
+template <class Real>
+inline Vec<Real> up_to_lane(const Vec<Real>& v, int c) {
+    return lane_numbers<Real>() <= c ? v : Vec<Real>{};
+}
+
 template <class Real>
 inline Real sum_lanes(Vec<Real> v) {
-    using Index = std::conditional_t<sizeof(Real) == 4, std::int32_t, std::int64_t>;
-    using Indices [[gnu::vector_size(vector_bytes)]] = Index;
-    Indices lane;
-    for (int i = 0; i < lanes<Real>; ++i) lane[i] = i;
-    for (int half = lanes<Real> / 2; half > 0; half /= 2) v += __builtin_shuffle(v, lane ^ half);
+    for (int half = lanes<Real> / 2; half > 0; half /= 2) v += __builtin_shuffle(v, lane_numbers<Real>() ^ half);
     return v[0];
 }
 

@@ -11,6 +11,8 @@
 namespace arcsim {
 namespace {
 
+constexpr int ahead = 24;   // cache lines that the streams of a solve are asked for in advance
+
 constexpr int blocks_of(int rows, int lanes) { return (rows + lanes - 1) / lanes; }
 
 }  // namespace
@@ -34,6 +36,8 @@ SupernodalFactor<Real>::SupernodalFactor(std::shared_ptr<const Supernodes> shape
     work_ = aligned(static_cast<std::size_t>(2 + L) * (widest + L));
 
     const auto& position = shape_->position();
+    place_at_.resize(pattern.n_nodes());
+    for (int place = 0; place < pattern.n_nodes(); ++place) place_at_[position[place]] = place;
     entries_.reserve(pattern.block_row().size());
     for (int j = 0; j < pattern.n_nodes(); ++j)
         for (int k = pattern.block_ptr()[j]; k < pattern.block_ptr()[j + 1]; ++k) {
@@ -54,36 +58,43 @@ typename SupernodalFactor<Real>::Panel SupernodalFactor<Real>::panel(int s) cons
     return {values_.get() + offsets_[s], 3 * n.n_cols, 3 * n.n_rows, diagonal, diagonal + blocks_of(3 * n.n_rows, L)};
 }
 
+/// Clears a panel and puts A's entries in, just before its first use, so that it stays in the cache.
 template <class Real>
-void SupernodalFactor<Real>::insert(const BlockMatrix& A) {
+void SupernodalFactor<Real>::ensure_started(const BlockMatrix& A, int s) {
+    if (started_[s]) return;
+    started_[s] = 1;
     const BlockPattern& pattern = A.pattern();
-    std::memset(values_.get(), 0, size_ * sizeof(Real));
-    const double* a = A.values();
-    const std::array<std::uint32_t, 3>* to = entries_.data();
-    for (int j = 0; j < pattern.n_nodes(); ++j) {
+    const Supernodes::Supernode& node = shape_->list()[s];
+    const Panel p = panel(s);
+    std::memset(p.values, 0, p.block_begin(p.blocks) * sizeof(Real));
+    for (int position = node.first; position < node.first + node.n_cols; ++position) {
+        const int j = place_at_[position];
         const int n_blocks = pattern.block_ptr()[j + 1] - pattern.block_ptr()[j], stride = 3 * n_blocks;
+        const double* a = A.values() + pattern.col_ptr()[3 * j];
+        const std::array<std::uint32_t, 3>* to = entries_.data() + pattern.block_ptr()[j];
         for (int c = 0; c < 3; ++c) {
-            diagonal_[3 * shape_->position()[j] + c] = static_cast<Real>(a[c * stride + c]);
-            for (int r = c; r < 3; ++r) values_[(*to)[r] + L * c] = static_cast<Real>(a[c * stride + r]);
+            diagonal_[3 * position + c] = static_cast<Real>(a[c * stride + c]);
+            for (int r = c; r < 3; ++r) values_[to[0][r] + L * c] = static_cast<Real>(a[c * stride + r]);
         }
-        ++to;
-        for (int k = 1; k < n_blocks; ++k, ++to)
+        for (int k = 1; k < n_blocks; ++k)
             for (int c = 0; c < 3; ++c)
-                for (int r = 0; r < 3; ++r) values_[(*to)[r] + L * c] = static_cast<Real>(a[c * stride + 3 * k + r]);
-        a += 3 * stride;
+                for (int r = 0; r < 3; ++r) values_[to[k][r] + L * c] = static_cast<Real>(a[c * stride + 3 * k + r]);
     }
 }
 
 template <class Real>
 int SupernodalFactor<Real>::factorize(const BlockMatrix& A, Real least_pivot) {
     const FlushDenormals scope;
-    insert(A);
-    for (std::size_t s = 0; s < shape_->list().size(); ++s) {
+    const int n = static_cast<int>(shape_->list().size());
+    started_.assign(n, 0);
+    for (int s = 0; s < n; ++s) {
+        ensure_started(A, s);
         const int first = shape_->list()[s].first;
-        const Panel p = panel(static_cast<int>(s));
+        const Panel p = panel(s);
         const int failed = factorize_panel(p, first, least_pivot);
         if (failed >= 0) return 3 * first + failed;
-        update_later(static_cast<int>(s), p);
+        invert_triangles(p);
+        update_later(A, s, p);
     }
     return -1;
 }
@@ -109,7 +120,7 @@ int factorize_triangle(const panel::Vec<Real> (&tile)[1][C], int at, const Real*
 
 }  // namespace
 
-/// Left-looking over tile_columns columns at a time. The diagonal keeps the inverses, its upper triangle zeros.
+/// Left-looking over tile_columns columns at a time. The diagonal keeps the inverses.
 template <class Real>
 int SupernodalFactor<Real>::factorize_panel(const Panel& p, int first, Real least_pivot) {
     int failed = -1;
@@ -131,7 +142,6 @@ int SupernodalFactor<Real>::factorize_panel(const Panel& p, int first, Real leas
                 }
                 panel::solve_triangle<Real, 1, C>(triangle, acc);
                 for (int c = 0; c < C; ++c) {
-                    for (int r = 0; r < at + c; ++r) acc[0][c][r] = 0;
                     acc[0][c][at + c] = triangle.inverse[c];
                     out[c] = acc[0][c];
                 }
@@ -155,9 +165,29 @@ int SupernodalFactor<Real>::factorize_panel(const Panel& p, int first, Real leas
     return failed;
 }
 
+/// Row r of a triangle's inverse is (e_r - sum over k < r of T_rk row_k) / T_rr.
+template <class Real>
+void SupernodalFactor<Real>::invert_triangles(const Panel& p) {
+    for (int b = 0; b < p.diagonal_blocks; ++b) {
+        Real* t = p.block(b) + static_cast<std::size_t>(L) * L * b;
+        const int n = std::min(L, p.w - L * b);
+        alignas(64) Real inverse[L][L];
+        for (int r = 0; r < n; ++r) {
+            Vec row = {};
+            row[r] = 1;
+            for (int k = 0; k < r; ++k) row -= *reinterpret_cast<const Vec*>(inverse[k]) * t[L * k + r];
+            *reinterpret_cast<Vec*>(inverse[r]) = row * t[L * r + r];
+        }
+        for (int c = 0; c < n; ++c)
+            for (int r = 0; r < L; ++r) t[L * c + r] = r >= n ? 0 : r > c ? inverse[r][c] : inverse[c][r];
+    }
+}
+
 /// Later panels -= B Bᵀ, B the rows below the diagonal: strips of three row blocks, lower triangle only.
 template <class Real>
-void SupernodalFactor<Real>::update_later(int s, const Panel& p) {
+void SupernodalFactor<Real>::update_later(const BlockMatrix& A, int s, const Panel& p) {
+    const Supernodes::Supernode& node = shape_->list()[s];
+    for (int k = node.update_begin; k < node.update_end; ++k) ensure_started(A, shape_->updates()[k].target);
     const int below = p.blocks - p.diagonal_blocks;
     panel::for_row_blocks(0, below, [&]<int R>(int block) {
         const int width = std::min(p.m, L * (block + R));   // columns of the strip
@@ -231,12 +261,11 @@ void SupernodalFactor<Real>::solve_forward(int s, Real* x) const {
         for (int c = 0; c < L * b; c += 4)
             for (int i = 0; i < 4; ++i) acc[i] -= l[c + i] * own[c + i];
         Vec rest = (acc[0] + acc[1]) + (acc[2] + acc[3]);
+        reinterpret_cast<Vec*>(own)[b] = rest;
         const int n = std::min(L, p.w - L * b);
-        for (int c = 0; c < n; ++c) {
-            const Real value = rest[c] * l[L * b + c][c];
-            rest -= l[L * b + c] * value;
-            own[L * b + c] = value;
-        }
+        Vec x_b[2] = {};
+        for (int c = 0; c < n; ++c) x_b[c % 2] += panel::from_lane<Real>(l[L * b + c], c) * own[L * b + c];
+        reinterpret_cast<Vec*>(own)[b] = x_b[0] + x_b[1];
     }
     std::memcpy(mine, own, p.w * sizeof(Real));
     const int* rows = shape_->rows().data() + node.row_begin;
@@ -245,7 +274,10 @@ void SupernodalFactor<Real>::solve_forward(int s, Real* x) const {
         Vec acc[R] = {};
         for (int r = 0; r < R; ++r) l[r] = p.vectors(p.diagonal_blocks + block + r);
         for (int c = 0; c < p.w; ++c)
-            for (int r = 0; r < R; ++r) acc[r] += l[r][c] * own[c];
+            for (int r = 0; r < R; ++r) {
+                __builtin_prefetch(l[r] + c + ahead);
+                acc[r] += l[r][c] * own[c];
+            }
         const int begin = L * block, end = std::min(p.m, begin + R * L);
         const Real* value = reinterpret_cast<const Real*>(acc);
         for (int k = begin; k < end; ++k) x[3 * rows[k / 3] + k % 3] -= value[k - begin];
@@ -274,19 +306,24 @@ void SupernodalFactor<Real>::solve_backward(int s, Real* x) const {
         }
         for (int c = 0; c < p.w; ++c) {
             Vec sum = products[c];
-            for (int r = 0; r < R; ++r) sum += l[r][c] * z[r];
+            for (int r = 0; r < R; ++r) {
+                __builtin_prefetch(l[r] + c + ahead);
+                sum += l[r][c] * z[r];
+            }
             products[c] = sum;
         }
     });
     Real* mine = x + 3 * node.first;
     for (int b = p.diagonal_blocks - 1; b >= 0; --b) {
         const Vec* l = p.vectors(b);
-        Vec z = {};
-        for (int c = std::min(L, p.w - L * b) - 1; c >= 0; --c) {
-            const int j = L * b + c;
-            const Vec sum = products[j] + l[j] * z;   // z is zero at the lanes up to c
-            z[c] = mine[j] = (mine[j] - panel::sum_lanes<Real>(sum)) * l[j][c];
+        const int n = std::min(L, p.w - L * b);
+        Vec x_b[2] = {};
+        for (int c = 0; c < n; ++c) {
+            const Real rest = mine[L * b + c] - panel::sum_lanes<Real>(products[L * b + c]);
+            x_b[c % 2] += panel::up_to_lane<Real>(l[L * b + c], c) * rest;
         }
+        const Vec z = x_b[0] + x_b[1];
+        for (int c = 0; c < n; ++c) mine[L * b + c] = z[c];
         for (int c = 0; c < L * b; ++c) products[c] += l[c] * z;
     }
 }

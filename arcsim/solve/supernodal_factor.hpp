@@ -32,6 +32,8 @@ private:
     static constexpr int L = panel::lanes<Real>;
 
     /// One supernode's panel: its diagonal row blocks store the columns up to their own end, those below all w columns.
+    /// When finished, a diagonal block's own L columns hold the inverse of their triangle, mirrored: forward substitution
+    /// reads the lower half, backward the upper one, and neither waits for one unknown after another.
     struct Panel {
         Real* values;
         int w, m;                       // columns; rows below
@@ -53,9 +55,10 @@ private:
     };
     Panel panel(int s) const;
 
-    void insert(const BlockMatrix& A);
+    void ensure_started(const BlockMatrix& A, int s);
     int factorize_panel(const Panel& p, int first, Real least_pivot);
-    void update_later(int s, const Panel& p);
+    void invert_triangles(const Panel& p);
+    void update_later(const BlockMatrix& A, int s, const Panel& p);
     template <int R>
     void scatter_strip(int s, int first_block, int width);
     void solve_forward(int s, Real* x) const;
@@ -74,6 +77,8 @@ private:
     std::vector<std::array<std::uint32_t, 3>> entries_;   // per block of the pattern: where its rows' first column goes
     std::unique_ptr<Real[], Free> values_, strip_, work_;
     std::vector<Real> diagonal_;                    // of A, by position
+    std::vector<int> place_at_;                     // pattern's place of each position
+    std::vector<char> started_;                     // panels that hold A's entries
 };
 
 extern template class SupernodalFactor<float>;

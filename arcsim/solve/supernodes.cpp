@@ -84,9 +84,9 @@ double panel_flops(double w, double m) { return w * w * w / 3 + w * w * m + w * 
 /// measurements (AVX-512, single precision); the result depends on them weakly.
 double panel_cost(double w, double m) {
     constexpr double short_columns = 6;   // columns' worth of loading and storing a tile of the update
-    constexpr double scatter = 100;       // per entry that is added to a later supernode
-    constexpr double store = 150;         // per entry of the panel: cleared, filled, read by several solves
-    constexpr double overhead = 60000;    // per supernode
+    constexpr double scatter = 50;        // per entry that is added to a later supernode
+    constexpr double store = 300;         // per entry of the panel: cleared, filled, read by several solves
+    constexpr double overhead = 40000;    // per supernode
     return w * w * w / 3 + w * w * m + (w + short_columns) * m * m + scatter * m * m / 2 +
            store * panel_nonzeros(w, m) + overhead;
 }
