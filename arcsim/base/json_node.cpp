@@ -82,7 +82,7 @@ InputFile JsonNode::file() const {
 }
 
 int JsonNode::size() const {
-    if (kind() != JsonKind::array) fail("expected an array, got " + shown() + ".");
+    if (kind() != JsonKind::array) fail("expected an array [ ... ], got " + shown() + ".");
     return static_cast<int>(value_->items.size());
 }
 

@@ -1,7 +1,9 @@
 #include "arcsim/base/progress.hpp"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -14,6 +16,12 @@ namespace arcsim {
 namespace {
 
 const bool terminal = ::isatty(STDERR_FILENO) == 1;
+
+/// Characters that fit in one line: a longer one would wrap and could not be rewritten.
+std::size_t terminal_columns() {
+    winsize size{};
+    return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1u : 79u;
+}
 
 double seconds_since(std::chrono::steady_clock::time_point t) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
@@ -78,6 +86,7 @@ void Progress::update(const ProgressState& s) {
     if (!s.note.empty()) text += ", " + s.note;
     text += ", " + format_duration(elapsed) + left;
     if (terminal) {
+        text.resize(std::min(text.size(), terminal_columns()));
         const std::size_t width = text.size();
         if (width < width_) text += std::string(width_ - width, ' ');
         width_ = width;

@@ -7,7 +7,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-program = Path(sys.argv[1]) / "formwork"
+program = Path(sys.argv[1]).resolve() / "formwork"
 failures = []
 work = Path(tempfile.mkdtemp())
 
@@ -60,6 +60,13 @@ def case(name, scene_text, mesh, expected, command=("run",), extra=(), mesh_name
 case("missing scene", None, obj(), ["bag.json", "No such file", "Check the name"])
 case("missing mesh", scene(), None, ["bag.json:4:", "/cloths/0/mesh", "no file \"bag.obj\""])
 case("malformed JSON", scene().replace('"plaster":', '"plaster"'), obj(), ["bag.json:", "not valid JSON"])
+case("trailing comma", scene().rstrip()[:-1] + ",}", obj(), ["bag.json:", "remove the comma before this }"])
+case("missing comma", scene().replace('],\n  "plaster"', ']\n  "plaster"'), obj(), ["bag.json:", "a comma or colon is missing"])
+case("single quotes", scene().replace('"', "'"), obj(), ["bag.json:", "double quotes"])
+case("text that ends", scene()[:-3], obj(), ["bag.json:", "still open"])
+case("empty scene", "// nothing\n", obj(), ["bag.json:", "the file is empty"])
+case("number without end", scene().replace("1500", "1e999"), obj(), ["bag.json:", "too large"])
+case("key of another object", scene(density=1500), obj(), ["/formwork/density", "exists at", "/formwork/plaster/density"])
 case("unknown key", scene(plastre={}), obj(), ["/formwork/plastre", "is not a known key", "Did you mean \"plaster\""])
 case("wrong type", scene(up=[0, 0]), obj(), ["/formwork/up", "three numbers"])
 case("out of range", scene(plaster={"density": -1, "fill": {"level": 0}}), obj(), ["/formwork/plaster/density", "expected a number >= 0 (kg/m³), got -1"])
@@ -89,6 +96,25 @@ case("stage without its files", scene(), obj(), ["is missing", "Run the stages b
 case("obstacles", json.dumps({"cloths": [{"mesh": "bag.obj"}], "obstacles": [{"mesh": "bag.obj"}], "formwork": {}}), obj(), ["obstacles"])
 case("check finds it too", scene(), obj(faces=[(0, 3, 2), *GOOD_F[1:]]), ["bag.obj", "oriented"], command=("check",))
 case("closed mesh", scene(), obj(faces=GOOD_F + [(4, 5, 7), (4, 7, 6)]), ["/formwork/fixed/0/boundary", "closed"])
+
+
+
+def said(arguments, expected):
+    """Slips in the command itself, and doubts about values that are legal."""
+    run = subprocess.run([str(program), *arguments], capture_output=True, text=True, timeout=120, cwd=work)
+    for words in expected:
+        if words not in run.stdout + run.stderr:
+            failures.append(f"{arguments}: expected \"{words}\" in: {run.stdout[-300:]}{run.stderr}")
+
+
+(work / "bag.obj").write_text(obj())
+(work / "light.json").write_text(scene(plaster={"density": 1.5, "fill": {"level": 235}}))
+(work / "lying.json").write_text(scene(up="y"))
+said(["rn", "bag.json"], ["\"rn\" is not a command", "Did you mean \"run\""])
+said(["run", "bag.json", "--form", "sew"], ["--form is not an option", "Did you mean \"--from\""])
+said([], ["give a command", "inflate"])
+said(["check", "light.json", "-q"], ["1.5 kg/m³ is very light", "far above the bag"])
+said(["check", "lying.json", "-q"], ["the opening looks sideways", "set \"up\": \"z\""])
 
 for failure in failures:
     print(failure)
