@@ -42,7 +42,7 @@ struct BendForce::Group {
 struct BendForce::GroupList : std::vector<Group> {};
 
 BendForce::BendForce(std::vector<Hinge> hinges, std::vector<BendingTable> tables, const VectorXd& x)
-    : hinges_(std::move(hinges)), tables_(std::move(tables)), lagged_(hinges_.size()),
+    : hinges_(std::move(hinges)), tables_(std::move(tables)), lagged_(hinges_.size()), present_(hinges_.size()),
       stiffness_(hinges_.size()), slope_(hinges_.size()), groups_(std::make_shared<GroupList>()) {
     for (size_t i = 0; i < hinges_.size(); ++i) lagged_[i] = hinges_[i].rest_angle;
     std::vector<int> order(hinges_.size());
@@ -119,6 +119,7 @@ void BendForce::assemble(const VectorXd& x, double sign, Weight weight, VectorXd
             for (int lane = 0; lane < group.count; ++lane) {
                 const double theta = hinge::unwrap(std::atan2(fold.sine[lane], fold.cosine[lane]),
                                                    lagged_[group.hinge[lane]]);
+                present_[group.hinge[lane]] = theta;
                 const double moment = sign * stiffness[lane] * (theta - group.rest_angle[lane]);
                 for (int k = 0; k < 4; ++k)
                     for (int c = 0; c < 3; ++c)
@@ -226,6 +227,11 @@ void BendForce::refresh(const VectorXd& x) {
             lagged = hinge::unwrap(std::atan2(fold.sine[lane], fold.cosine[lane]), lagged);
         }
     }
+    look_up_stiffness();
+}
+
+void BendForce::keep_step_angles() {
+    lagged_ = present_;
     look_up_stiffness();
 }
 

@@ -40,6 +40,8 @@ public:
     void add_step(const State& s, double h, VectorXd& f, BlockMatrix& A) const override;
     void add_damping(const State& s, BlockMatrix& H) const override;
     void refresh(const VectorXd& x) override;
+    /// What `refresh` at the positions of the last `add_step` would do, with the angles that it has found there.
+    void keep_step_angles();
     void list_pairs(std::vector<std::array<int, 2>>& pairs) const override;
     void bind(const BlockPattern& pattern) override;
 
@@ -66,6 +68,7 @@ private:
     std::vector<Hinge> hinges_;
     std::vector<BendingTable> tables_;
     std::vector<double> lagged_;          // rad
+    mutable std::vector<double> present_; // rad, at the positions of the last gradient
     std::vector<double> stiffness_;       // k l² / (4 a), N m
     std::vector<double> slope_;           // its derivative by theta, N m
     bool follows_ = false;

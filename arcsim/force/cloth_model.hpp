@@ -32,6 +32,12 @@ struct ClothModel {
     int n_nodes() const { return static_cast<int>(mass.size()); }
     std::vector<ClothForce*> internal_forces() const { return {stretch.get(), bend.get()}; }
 
+    /// `refresh` at the positions at which the forces have just added a step.
+    void refresh_after_step(const VectorXd& x) {
+        stretch->refresh(x);
+        bend->keep_step_angles();
+        wind->refresh(x);
+    }
     /// Everything that is looked up with a lag of one step.
     void refresh(const VectorXd& x) {
         stretch->refresh(x);

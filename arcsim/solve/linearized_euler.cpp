@@ -45,7 +45,7 @@ StepResult LinearizedEuler::step(State& s, double h) {
 
     if (!v_.allFinite()) throw NumericalError("the step gave velocities that are not finite");
     if (params_.max_stretch) check_state(s.x + h * v_, *params_.max_stretch);
-    model.refresh(s.x);
+    model.refresh_after_step(s.x);
     s.v = v_;
     s.x += h * v_;
     cost_.assembly += t1 - t0;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
 
@@ -89,6 +90,60 @@ TEST_CASE("a resumed run continues to the same digits") {
         REQUIRE(r.code == 0);
         CHECK(text_of(dir / "part" / "0006_00.obj") == text_of(dir / "whole" / "0006_00.obj"));
     }
+}
+
+TEST_CASE("an interrupted run ends with exit code 130 and continues to the same bytes") {
+    const fs::path dir = fresh_folder("interrupted");
+    const auto scene = [&](int end_frame) {
+        return changed_scene("comp_iso", dir, {{"\"frame_time\": 0.4", "\"frame_time\": 0.02"},
+                                               {"\"frame_steps\": 40", "\"frame_steps\": 2"},
+                                               {"\"end_frame\": 5", "\"end_frame\": " + std::to_string(end_frame)}});
+    };
+    const std::string part = (dir / "part").string();
+    const std::string script = "\"" + arcsim_program() + "\" " + scene(100000).string() + " " + part + " --quiet 2>/dev/null & run=$!; " +
+                               "while [ ! -e " + part + "/0003_00.obj ]; do sleep 0.01; done; kill -INT $run; wait $run";
+    const int status = std::system(("sh -c '" + script + "'").c_str());
+    CHECK(WEXITSTATUS(status) == 130);
+    int last = 3;
+    const auto frame = [](int n) { return "00" + std::string(n < 10 ? "0" : "") + std::to_string(n) + "_00.obj"; };
+    while (fs::exists(dir / "part" / frame(last + 1)) && last < 95) ++last;
+    const fs::path short_scene = scene(last + 2);
+    const Result resumed = run("resume " + part + " " + std::to_string(last) + " " + short_scene.string() + " --quiet", dir);
+    INFO(resumed.errors);
+    REQUIRE(resumed.code == 0);
+    REQUIRE(run(short_scene.string() + " " + (dir / "whole").string() + " --quiet", dir).code == 0);
+    for (int n : {1, last, last + 1, last + 2}) CHECK(text_of(dir / "part" / frame(n)) == text_of(dir / "whole" / frame(n)));
+}
+
+TEST_CASE("several cloths run side by side, each as if it were alone") {
+    using nlohmann::json;
+    const fs::path dir = fresh_folder("several");
+    const fs::path file = changed_scene("strip_iso", dir, {});
+    json alone = json::parse(text_of(file));
+    alone["frame_time"] = 0.05;
+    alone["frame_steps"] = 5;
+    alone["end_frame"] = 3;
+    json moved = alone;
+    moved["cloths"][0]["transform"] = {{"translate", {0.5, 0, 0}}, {"rotate", {90, 0, 0, 1}}, {"scale", 2}};
+    moved["cloths"][0]["velocity"] = {{"linear", {0, 0, 0.1}}, {"angular", {0, 1, 0}}};
+    json both = alone;
+    both["cloths"].push_back(moved["cloths"][0]);
+    for (json handle : moved["handles"]) {
+        handle["cloth"] = 1;
+        both["handles"].push_back(handle);
+    }
+    for (const auto& [name, scene] : {std::pair<std::string, json&>{"first", alone}, {"second", moved}, {"both", both}}) {
+        std::ofstream(dir / (name + ".json")) << scene;
+        const Result r = run((dir / (name + ".json")).string() + " " + (dir / name).string() + " --quiet", dir);
+        INFO(name << r.errors);
+        REQUIRE(r.code == 0);
+    }
+    for (const std::string n : {"0000", "0001", "0003"}) {
+        CHECK(text_of(dir / "both" / (n + "_00.obj")) == text_of(dir / "first" / (n + "_00.obj")));
+        CHECK(text_of(dir / "both" / (n + "_01.obj")) == text_of(dir / "second" / (n + "_00.obj")));
+    }
+    CHECK(text_of(dir / "both" / "0003_00.obj") != text_of(dir / "both" / "0003_01.obj"));
+    CHECK_FALSE(fs::exists(dir / "first" / "0000_01.obj"));
 }
 
 TEST_CASE("frames of another program, without our resume files, are continued with a warning") {
