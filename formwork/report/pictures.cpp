@@ -129,8 +129,8 @@ Image picture_curves(const Surface& shown, const std::vector<std::vector<Vector3
     for (const auto& c : candidates) lines.push_back({c, {0.25, 0.45, 0.7}, 1.6, 0.75});
     for (const auto& c : chosen) lines.push_back({c, {0.75, 0.15, 0.05}, 4.0, 1});
     char note[120];
-    std::snprintf(note, sizeof note, "%zu candidate curves, %zu chosen", candidates.size(),
-                  chosen.size());
+    if (candidates.empty()) std::snprintf(note, sizeof note, "%zu seams", chosen.size());
+    else std::snprintf(note, sizeof note, "%zu candidate curves, %zu chosen", candidates.size(), chosen.size());
     return render_surface(shown, paint_plain(), lines, singularity_marks(shown, singularities),
                           options(up, title, note));
 }
