@@ -4,7 +4,7 @@
 The lid is removed (level faces above a height), the triangles are evened out by edge collapses, flips and
 tangential smoothing on the original surface, and the result is written as OBJ.
 
-Usage: open_bag.py IN OUT --remove-level-faces-above Z --edge LENGTH
+Usage: open_bag.py IN OUT [--remove-level-faces-above Z] --edge LENGTH
 """
 import argparse
 import math
@@ -185,7 +185,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("source")
     parser.add_argument("target")
-    parser.add_argument("--remove-level-faces-above", type=float, required=True)
+    parser.add_argument("--remove-level-faces-above", type=float, default=math.inf)
     parser.add_argument("--edge", type=float, required=True)
     options = parser.parse_args()
 

@@ -77,6 +77,7 @@ InputFile JsonNode::file() const {
             f.path = candidate.lexically_normal();
             return f;
         }
+    if (fs::is_directory(beside, ignored)) fail("\"" + f.name + "\" is a folder, not a file. Name a file in it.");
     fail("no file \"" + f.name + "\": looked for " + beside.lexically_normal().string() +
          (beside == fs::path(f.name) ? "" : " and, in the working directory, " + f.name) + ". Check the name.");
 }

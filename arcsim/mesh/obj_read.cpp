@@ -13,6 +13,12 @@
 namespace arcsim {
 namespace {
 
+/// A word of the file as a message shows it: a broken file may hold words of any length.
+std::string shown(std::string_view word) {
+    constexpr std::size_t most = 40;
+    return word.size() <= most ? std::string(word) : std::string(word.substr(0, most)) + "…";
+}
+
 constexpr std::string_view blanks = " \t\r\v\f";
 
 /// The words of one line, and messages that name it.
@@ -51,7 +57,7 @@ public:
     int integer(std::string_view keyword) {
         const std::string_view w = word();
         const auto value = integer_from(w);
-        if (!value) fail(std::string(keyword) + ": expected an integer, got \"" + std::string(w) + "\".");
+        if (!value) fail(std::string(keyword) + ": expected an integer, got \"" + shown(w) + "\".");
         return *value;
     }
 
@@ -80,9 +86,9 @@ private:
             error = std::errc();
         }
         if (error != std::errc() || end != digits.data() + digits.size())
-            fail(std::string(keyword) + ": expected a number, got \"" + std::string(w) + "\".");
+            fail(std::string(keyword) + ": expected a number, got \"" + shown(w) + "\".");
         if (!std::isfinite(value))
-            fail(std::string(keyword) + ": " + std::string(w) + " is not a finite number. Repair the program that wrote the mesh.");
+            fail(std::string(keyword) + ": " + shown(w) + " is not a finite number. Repair the program that wrote the mesh.");
         return value;
     }
 
@@ -242,7 +248,7 @@ private:
 
     static int index(std::string_view w, int count, const char* what, Line& line) {
         const auto value = Line::integer_from(w);
-        if (!value) line.fail(std::string("expected the index of a ") + what + ", got \"" + std::string(w) + "\".");
+        if (!value) line.fail(std::string("expected the index of a ") + what + ", got \"" + shown(w) + "\".");
         const int i = *value < 0 ? count + *value : *value - 1;
         if (*value == 0 || i < 0 || i >= count)
             line.fail(std::string(what) + " " + std::to_string(*value) + " does not exist: " +
