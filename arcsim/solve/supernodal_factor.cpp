@@ -31,9 +31,9 @@ SupernodalFactor<Real>::SupernodalFactor(std::shared_ptr<const Supernodes> shape
     }
     if (size_ > std::numeric_limits<std::uint32_t>::max())
         throw NumericalError("the factor of " + std::to_string(3 * shape_->n_nodes()) + " equations is too large");
-    values_ = aligned(size_);
-    strip_ = aligned(static_cast<std::size_t>(panel::tile_blocks) * L * (tallest + L));
-    work_ = aligned(static_cast<std::size_t>(2 + L) * (widest + L));
+    values_ = aligned_array<Real>(size_);
+    strip_ = aligned_array<Real>(static_cast<std::size_t>(panel::tile_blocks) * L * (tallest + L));
+    work_ = aligned_array<Real>(static_cast<std::size_t>(2 + L) * (widest + L));
 
     const auto& position = shape_->position();
     place_at_.resize(pattern.n_nodes());

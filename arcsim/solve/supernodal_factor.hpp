@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "arcsim/base/aligned_array.hpp"
 #include "arcsim/solve/linear_solver.hpp"
 #include "arcsim/solve/panel_tiles.hpp"
 #include "arcsim/solve/supernodes.hpp"
@@ -64,18 +65,11 @@ private:
     void solve_forward(int s, Real* x) const;
     void solve_backward(int s, Real* x) const;
 
-    struct Free {
-        void operator()(Real* p) const { ::operator delete[](p, std::align_val_t(64)); }
-    };
-    static std::unique_ptr<Real[], Free> aligned(std::size_t n) {
-        return std::unique_ptr<Real[], Free>(static_cast<Real*>(::operator new[](n * sizeof(Real), std::align_val_t(64))));
-    }
-
     std::shared_ptr<const Supernodes> shape_;
     std::vector<std::size_t> offsets_;              // of the panels
     std::size_t size_ = 0;
     std::vector<std::array<std::uint32_t, 3>> entries_;   // per block of the pattern: where its rows' first column goes
-    std::unique_ptr<Real[], Free> values_, strip_, work_;
+    AlignedArray<Real> values_, strip_, work_;
     std::vector<Real> diagonal_;                    // of A, by position
     std::vector<int> place_at_;                     // pattern's place of each position
     std::vector<char> started_;                     // panels that hold A's entries

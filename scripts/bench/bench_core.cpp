@@ -1,5 +1,7 @@
 // Cost of one cloth step on one thread: the free swing of arcsim's hang case on square sheets.
-// Usage: bench_core [--order amd|metis|automatic] [--steps N] [size ...]        default sizes 21 41 101 161
+// Usage: bench_core [--order amd|metis|automatic] [--solver mixed|cholmod] [--steps N] [size ...]
+// Default sizes 21 41 101 161. "of peak": of a large matrix product in the factor's precision.
+#include <malloc.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,20 +18,28 @@
 
 using namespace arcsim;
 
-extern "C" void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*,
-                       const int*, const double*, const int*, const double*, double*, const int*);
+extern "C" {
+void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*, const int*,
+            const double*, const int*, const double*, double*, const int*);
+void sgemm_(const char*, const char*, const int*, const int*, const int*, const float*, const float*, const int*,
+            const float*, const int*, const float*, float*, const int*);
+}
 
 namespace {
 
 /// GFlop/s of a large matrix product: what the machine can do at best.
-double dgemm_peak() {
+template <class Real>
+double gemm_peak() {
     constexpr int n = 1200;
-    std::vector<double> a(n * n, 1.0), b(n * n, 1.0), c(n * n, 0.0);
-    const double one = 1, zero = 0;
+    std::vector<Real> a(n * n, 1), b(n * n, 1), c(n * n, 0);
+    const Real one = 1, zero = 0;
     double best = 0;
     for (int repeat = 0; repeat < 3; ++repeat) {
         const double start = cpu_seconds();
-        dgemm_("N", "N", &n, &n, &n, &one, a.data(), &n, b.data(), &n, &zero, c.data(), &n);
+        if constexpr (sizeof(Real) == 4)
+            sgemm_("N", "N", &n, &n, &n, &one, a.data(), &n, b.data(), &n, &zero, c.data(), &n);
+        else
+            dgemm_("N", "N", &n, &n, &n, &one, a.data(), &n, b.data(), &n, &zero, c.data(), &n);
         best = std::max(best, 2e-9 * n * n * n / (cpu_seconds() - start));
     }
     return best;
@@ -83,10 +93,11 @@ double peak_memory_bytes() {
     return 1024.0 * usage.ru_maxrss;
 }
 
-void measure(int n, int steps, FillOrder order, double peak) {
+void measure(int n, int steps, FillOrder order, SolverKind solver, double peak) {
     char name[] = "/tmp/bench_core_XXXXXX";
     const std::filesystem::path folder = mkdtemp(name);
-    const SceneParams scene = hanging_sheet(n, folder);
+    SceneParams scene = hanging_sheet(n, folder);
+    scene.solver.linear_solver = solver;
     const std::vector<Motion> no_motions;
     const double idle_memory = peak_memory_bytes();
     const double start = cpu_seconds();
@@ -117,12 +128,15 @@ void measure(int n, int steps, FillOrder order, double peak) {
 int main(int argc, char** argv) {
     std::vector<int> sizes;
     FillOrder order = FillOrder::automatic;
+    SolverKind solver = SolverKind::mixed;
     int steps = 20;
     for (int i = 1; i < argc; ++i) {
         const std::string word = argv[i];
         if (word == "--order" && i + 1 < argc) {
             const std::string name = argv[++i];
             order = name == "amd" ? FillOrder::amd : name == "metis" ? FillOrder::metis : FillOrder::automatic;
+        } else if (word == "--solver" && i + 1 < argc) {
+            solver = std::string(argv[++i]) == "cholmod" ? SolverKind::cholmod : SolverKind::mixed;
         } else if (word == "--steps" && i + 1 < argc) {
             steps = std::atoi(argv[++i]);
         } else {
@@ -131,15 +145,18 @@ int main(int argc, char** argv) {
     }
     if (sizes.empty()) sizes = {21, 41, 101, 161};
     set_blas_threads(1);
-    const double peak = dgemm_peak();
-    std::printf("BLAS kernel %s, dgemm %.1f GFlop/s on one thread; %d steps of h = 0.01 s\n", blas_kernel().c_str(), peak, steps);
+    const double dgemm = gemm_peak<double>(), sgemm = gemm_peak<float>();
+    malloc_trim(0);   // or the children's peak memory would hide in what these matrices leave behind
+    const double peak = solver == SolverKind::cholmod ? dgemm : sgemm;
+    std::printf("BLAS kernel %s, dgemm %.1f and sgemm %.1f GFlop/s on one thread; %d steps of h = 0.01 s\n",
+                blas_kernel().c_str(), dgemm, sgemm, steps);
     std::printf("%6s %8s %9s %9s %6s %9s %8s %7s %9s %8s %9s %8s\n", "sheet", "unknowns", "ms/step", "assembly", "", "factor",
                 "solve", "rest", "GFlop", "of peak", "setup ms", "B/node");
     std::fflush(stdout);
     for (const int n : sizes) {   // each in its own process, for its own peak memory
         const pid_t child = fork();
         if (child == 0) {
-            measure(n, steps, order, peak);
+            measure(n, steps, order, solver, peak);
             std::_Exit(0);
         }
         waitpid(child, nullptr, 0);
