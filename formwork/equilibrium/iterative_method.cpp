@@ -6,7 +6,6 @@
 namespace formwork {
 namespace {
 
-constexpr double runaway_stretch = 12;      // far beyond any table; a bag that large has no equilibrium
 constexpr double largest_growth = 4. / 3;   // of a face's stretch in one step
 constexpr int floor_patience = 5;           // reports without gain before rounding is suspected
 

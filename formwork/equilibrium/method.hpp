@@ -19,6 +19,9 @@ struct SolveOutcome {
     bool ok() const { return status == SolveStatus::converged || status == SolveStatus::rounding_floor; }
 };
 
+/// A largest stretch far beyond any table: a bag that large has no equilibrium.
+inline constexpr double runaway_stretch = 12;
+
 /// A way from a start to the shape in which all forces balance. Every method ends by the force residual, never by a
 /// velocity or a step: what is slow is not yet at rest (STABILITY row 18).
 class EquilibriumMethod {

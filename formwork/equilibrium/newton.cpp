@@ -20,7 +20,6 @@ constexpr double largest_step = 0.5;     // of the rest shape's half width per N
 constexpr int most_halvings = 12;
 constexpr int patience = 60;             // Newton steps without a new best residual
 constexpr double newton_is_trusted_at = 1e-2;   // relative residual; unsymmetric laws
-constexpr double runaway_stretch = 12;   // far beyond any table; a bag that large has no equilibrium
 
 SolverKind kind_of(LinearSolverChoice c) {
     switch (c) {

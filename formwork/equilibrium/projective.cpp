@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::size_t memory = 8;          // pairs; [Liu, Bouaziz, Kavan 2017] find 5 to 10 best
 constexpr int per_iteration = 20;          // one Newton step's worth of work, about: what max_iterations counts
-constexpr int most_halvings = 12;
-constexpr double largest_step = 0.5;       // of the rest shape's half width
+constexpr int most_backtracks = 12;
+constexpr double longest_move = 0.5;       // of the rest shape's half width
 
 }  // namespace
 
@@ -56,12 +56,12 @@ SolveOutcome ProjectiveMethod::solve(VectorXd& x, double tolerance, double, cons
             direction(g, d);
             slope = -d.dot(g);
         }
-        const double longest = d.lpNorm<Eigen::Infinity>(), allowed = largest_step * system_.scales().reach;
+        const double longest = d.lpNorm<Eigen::Infinity>(), allowed = longest_move * system_.scales().reach;
         if (longest > allowed) d *= allowed / longest, slope *= allowed / longest;
         StaticSystem::Balance there;
         step = 1;
         bool good = false;
-        for (int halving = 0; halving <= most_halvings; ++halving, step /= 2) {
+        for (int halving = 0; halving <= most_backtracks; ++halving, step /= 2) {
             trial = x + step * d;
             there = system_.gradient(trial, trial_g);
             system_.fixed().clear(trial_g);

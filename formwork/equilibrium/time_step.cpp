@@ -8,7 +8,7 @@ namespace formwork {
 namespace {
 
 constexpr int most_newton = 20;     // per step; beyond, the step is too long
-constexpr int most_halvings = 8;
+constexpr int most_cuts = 8;
 
 }  // namespace
 
@@ -53,7 +53,7 @@ bool ConvergedStep::improve(VectorXd& v, std::string& why) {
         return false;
     }
     double alpha = 1;
-    for (int halving = 0; halving <= most_halvings; ++halving, alpha /= 2) {
+    for (int halving = 0; halving <= most_cuts; ++halving, alpha /= 2) {
         trial_ = v + alpha * dv_;
         const double there = residual(trial_, trial_r_);
         // LU's direction need not pull forward: the residual judges it then.
