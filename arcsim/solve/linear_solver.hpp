@@ -34,6 +34,9 @@ public:
     /// x may not be b. Vectors go by node numbers.
     virtual void solve(const VectorXd& b, VectorXd& x) const = 0;
 
+    /// The same with a guess in x, which iterative solvers start from.
+    virtual void improve(const VectorXd& b, VectorXd& x) const { solve(b, x); }
+
     /// @throws NumericalError naming the node whose pivot failed
     void factorize(const BlockMatrix& A);
     VectorXd solve(const VectorXd& b) const {

@@ -40,7 +40,8 @@ StepResult LinearizedEuler::step(State& s, double h) {
                              std::to_string(solver.breakdown().node) +
                              ": a material has k_uv² > k_uu k_vv, or a face is inverted");
     const double t2 = cpu_seconds();
-    solver.solve(b_, v_);
+    v_ = s.v;   // a good guess: the velocity changes by h times the acceleration
+    solver.improve(b_, v_);
     const double t3 = cpu_seconds();
 
     if (!v_.allFinite()) throw NumericalError("the step gave velocities that are not finite");
