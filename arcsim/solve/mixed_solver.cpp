@@ -6,7 +6,9 @@
 namespace arcsim {
 namespace {
 
-constexpr double tolerance = 1e-12;     // of the error in the energy norm: what a direct solve in double precision keeps
+// Of the error in the energy norm. The last iteration usually ends far below: on hanging sheets of 101² nodes the result
+// is then as far from CHOLMOD's (1e-14 soft, 3e-13 stiff) as CHOLMOD's is from the fully refined one.
+constexpr double tolerance = 1e-12;
 constexpr int most_iterations = 40;     // 3 to 6 are usual; beyond, a double-precision factor is cheaper
 
 /// A factor in single precision, as preconditioner of conjugate gradients in double precision: the accuracy of

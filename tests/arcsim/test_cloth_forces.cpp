@@ -114,6 +114,28 @@ TEST_CASE("weight and springs are gradients of their energies") {
         springs.reserve_pairs({{0, 15}});
         springs.set({{3, 200, {0.1, 0, 0}}, {5, 40, {0, 0.2, 0}}}, {{0, 15, 30.0}});
         check_derivatives(springs, state, patch.faces, {.step = 1e-5});
+        springs.set({}, {{0, 15, 30.0}});   // between two nodes of the cloth: internal, unlike springs to fixed points
+        check_invariants(springs, state);
+    }
+}
+
+TEST_CASE("the angles that a step has found are those that a refresh at its positions finds") {
+    const Patch patch;
+    const State rest = patch.states().at("rest");
+    for (const auto& [name, state] : patch.states()) {
+        BendForce kept(patch.hinges(0), {BendingTable(bending_rows())}, rest.x), refreshed = kept;
+        std::vector<std::array<int, 2>> pairs;
+        kept.list_pairs(pairs);
+        const BlockPattern pattern(static_cast<int>(state.x.size()) / 3, patch.faces, pairs);
+        kept.bind(pattern);
+        BlockMatrix A(pattern);
+        VectorXd f = VectorXd::Zero(state.x.size());
+        kept.add_step(state, 0.01, f, A);
+        kept.keep_step_angles();
+        refreshed.refresh(state.x);
+        INFO(name);
+        for (std::size_t i = 0; i < kept.lagged_angles().size(); ++i)
+            CHECK(kept.lagged_angles()[i] == Approx(refreshed.lagged_angles()[i]).margin(1e-13));
     }
 }
 
