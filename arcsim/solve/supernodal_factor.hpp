@@ -54,7 +54,12 @@ private:
             return block_begin(row / L) + static_cast<std::size_t>(row % L) + static_cast<std::size_t>(L) * column;
         }
     };
-    Panel panel(int s) const;
+    static constexpr int blocks_of(int rows) { return (rows + L - 1) / L; }
+    Panel panel(int s) const {
+        const Supernodes::Supernode& n = shape_->list()[s];
+        const int diagonal = blocks_of(3 * n.n_cols);
+        return {values_.get() + offsets_[s], 3 * n.n_cols, 3 * n.n_rows, diagonal, diagonal + blocks_of(3 * n.n_rows)};
+    }
 
     void ensure_started(const BlockMatrix& A, int s);
     int factorize_panel(const Panel& p, int first, Real least_pivot);
@@ -74,8 +79,5 @@ private:
     std::vector<int> place_at_;                     // pattern's place of each position
     std::vector<char> started_;                     // panels that hold A's entries
 };
-
-extern template class SupernodalFactor<float>;
-extern template class SupernodalFactor<double>;
 
 }  // namespace arcsim
