@@ -19,6 +19,7 @@ constexpr double wrinkles_known_at = 1e-3;     // residual at which the wrinkled
 constexpr int most_cap_raises = 6;             // of R each: a head over the rim beyond that is a mistake
 constexpr double allowed_part = 0.8;           // of the promised accuracy: the regularisation's effect on depth and volume
 constexpr double promised_accuracy = 1e-3;     // when no other is asked for
+constexpr double mesh_error_times_vertices = 4.5;   // largest relative error of a bag's volume, times vertices (docs/speed_accuracy)
 constexpr double units_are_wrong = 100;        // N = rho g R² / k, STABILITY row 16
 constexpr double units_are_doubtful = 3;
 
@@ -55,6 +56,11 @@ public:
 
 private:
     void check() {
+        if (p_.solver.accuracy && mesh_error_times_vertices / p_.rest.n_nodes() > *p_.solver.accuracy)
+            warnings_.push_back("accuracy " + number(*p_.solver.accuracy) + ": a mesh of " + std::to_string(p_.rest.n_nodes()) +
+                                " vertices is itself good to about " + number(mesh_error_times_vertices / p_.rest.n_nodes(), 1) +
+                                " of the volume; refine it to about " +
+                                std::to_string(std::lround(mesh_error_times_vertices / *p_.solver.accuracy)) + " vertices");
         const double N = load_number(system_);
         if (N > units_are_wrong)
             throw failure("the load number rho g R² / k is " + number(N) + ": this fabric (k = " +
