@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <sstream>
 
 #include "arcsim/base/error.hpp"
@@ -55,17 +56,32 @@ void AtomicFile::commit() {
     committed_ = true;
 }
 
+namespace {
+
+void write_temporary(const AtomicFile& target, const fs::path& file, const std::function<void(std::ostream&)>& write) {
+    std::ofstream out(target.temporary(), std::ios::binary);
+    if (out) write(out);
+    out.flush();
+    if (!out)
+        throw InputError(file.string() + ": cannot be written (" + std::strerror(errno) +
+                         "). Check free space and permissions, or choose another folder with -o.");
+}
+
+}  // namespace
+
 void write_file_atomically(const fs::path& file, const std::function<void(std::ostream&)>& write) {
     AtomicFile target(file);
-    {
-        std::ofstream out(target.temporary(), std::ios::binary);
-        if (out) write(out);
-        out.flush();
-        if (!out)
-            throw InputError(file.string() + ": cannot be written (" + std::strerror(errno) +
-                             "). Check free space and permissions, or choose another folder with -o.");
-    }
+    write_temporary(target, file, write);
     target.commit();
+}
+
+void write_files_atomically(const std::vector<std::pair<fs::path, std::string>>& files) {
+    std::vector<std::unique_ptr<AtomicFile>> targets;
+    for (const auto& [file, text] : files) {
+        targets.push_back(std::make_unique<AtomicFile>(file));
+        write_temporary(*targets.back(), file, [&, &content = text](std::ostream& out) { out << content; });
+    }
+    for (const auto& target : targets) target->commit();
 }
 
 void write_file_atomically(const fs::path& file, std::string_view text) {

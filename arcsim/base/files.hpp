@@ -5,6 +5,8 @@
 #include <iosfwd>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace arcsim {
 
@@ -17,6 +19,9 @@ std::string read_text_file(const std::filesystem::path& file);
 void write_file_atomically(const std::filesystem::path& file, std::string_view text);
 /// The same, the text being written by `write`.
 void write_file_atomically(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
+
+/// Several files as one: all are written to temporary names before the first is renamed.
+void write_files_atomically(const std::vector<std::pair<std::filesystem::path, std::string>>& files);
 
 /// For writers that insist on a file name of their own (libharu, libpng): they write to `temporary()`,
 /// then `commit()` renames it. Without commit the temporary is removed.

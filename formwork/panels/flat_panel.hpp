@@ -22,6 +22,7 @@ struct FlatPanel {
     double max_stretch_distortion = 0;   // largest |sigma - 1| over the faces
     double mean_stretch_distortion = 0;  // area-weighted mean of max |sigma - 1|
     double p95_stretch_distortion = 0;   // 95 % of the area stays below it
+    std::vector<double> face_distortion; // per face: max |sigma - 1|
     double symmetric_dirichlet = 4;      // area mean of s1² + s2² + 1/s1² + 1/s2²
     double grain_deviation_deg = 0;      // weighted mean angle between weave and strain directions, modulo 90°
     std::vector<double> grain_error_deg; // per face: angle between its target direction and the weave, modulo 90°

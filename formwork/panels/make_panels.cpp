@@ -18,6 +18,7 @@ std::string percent(double share) { return arcsim::format_short(100 * share, 3) 
 
 void measure_panel(const std::vector<Matrix2d>& shapes, FlatPanel& panel) {
     const StretchStatistics stretch = measure_stretch(panel.faces, shapes, panel.u);
+    panel.face_distortion = face_distortions(panel.faces, shapes, panel.u);
     panel.area = 0;
     for (const Triangle& t : panel.faces) {
         const Vector2d a = panel.u[t[1]] - panel.u[t[0]], b = panel.u[t[2]] - panel.u[t[0]];
@@ -85,7 +86,6 @@ PanelSet make_panels(const Segmentation& s, const PanelParams& params) {
     PanelSet set;
     set.params = params;
     cut_panels(s, set);
-    place_notches(params, set);
 
     if (params.stretch_compensation && s.direction.empty())
         throw arcsim::InputError("panels: /formwork/panels/stretch_compensation needs the simulated stretch of every face. Run inflate first.");
@@ -101,6 +101,7 @@ PanelSet make_panels(const Segmentation& s, const PanelParams& params) {
         turn_to_grain(s, surface_shapes.back(), params.warp, panel);
         if (shrinks) shrink_to_weave(params.compensation, panel, shapes.back());
     }
+    place_notches(set);
     match_seams(set, s, shapes);
     for (std::size_t p = 0; p < set.panels.size(); ++p) {
         move_to_origin(set.panels[p]);

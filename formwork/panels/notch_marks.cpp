@@ -18,6 +18,15 @@ std::vector<Line> stroke(NotchShape shape, const Vector2d& edge, const Vector2d&
     return {{edge, tip}};
 }
 
+/// Where a notch of the sew line's point `foot` meets the cut line: straight across the allowance, or at the
+/// nearest point where that would run past a concave corner.
+Vector2d on_cut_line(const PatternPiece& piece, const Vector2d& foot, const Vector2d& out, double allowance) {
+    constexpr double detour = 1.5;   // of the allowance: a mitre is longer than the allowance, another edge is farther
+    const auto reach = ray_to_outline(piece.cut, foot, out);
+    if (reach && *reach <= detour * allowance + 0.5) return foot + *reach * out;
+    return nearest_on_outline(piece.cut, foot);
+}
+
 }  // namespace
 
 void add_notches(const PanelSet& set, PatternPiece& piece) {
@@ -32,23 +41,24 @@ void add_notches(const PanelSet& set, PatternPiece& piece) {
                 const ChainPoint p = chain_point(chain, seam.notch[k]);
                 // The piece lies left of the chain on side 0 and right of it on side 1.
                 const Vector2d out = (side == 0 ? 1.0 : -1.0) * Vector2d(p.tangent.y(), -p.tangent.x());
-                const auto reach = ray_to_outline(piece.cut, p.at, out);
                 NotchMark mark;
                 mark.seam = static_cast<int>(i);
                 mark.sew = p.at;
-                mark.cut = p.at + std::min(reach.value_or(allowance), 3 * allowance + 1) * out;
-                const double room = (mark.cut - mark.sew).norm();
+                mark.cut = on_cut_line(piece, p.at, out, allowance);
                 const NotchStyle style = k == 0 ? notch_style(seam.style) : NotchStyle{};
-                // A slit must not reach the sew line; without allowance the mark is drawn inside the piece.
-                const double depth = room > 1 ? std::min(set.params.notch_length_mm, 0.6 * room) : set.params.notch_length_mm;
+                mark.shape = style.shape;
                 for (int s = 0; s < style.strokes; ++s) {
-                    const Vector2d shift = (s - (style.strokes - 1) / 2.0) * stroke_spacing * p.tangent;
-                    const Vector2d foot = p.at + shift;
-                    const double lift = std::min(ray_to_outline(piece.cut, foot, out).value_or(room), room + 2);
-                    for (Line& line : stroke(style.shape, room > 1 ? Vector2d(foot + lift * out) : foot, -out, p.tangent, depth))
+                    const Vector2d foot = p.at + (s - (style.strokes - 1) / 2.0) * stroke_spacing * p.tangent;
+                    const Vector2d edge = on_cut_line(piece, foot, out, allowance);
+                    const double room = (edge - foot).norm();
+                    // A slit must not reach the sew line; without allowance the mark is drawn inside the piece.
+                    const bool has_room = room > 1;
+                    const Vector2d inward = has_room ? Vector2d((foot - edge) / room) : Vector2d(-out);
+                    const double depth = has_room ? std::min(set.params.notch_length_mm, 0.6 * room) : set.params.notch_length_mm;
+                    for (Line& line : stroke(style.shape, has_room ? edge : foot, inward, Vector2d(inward.y(), -inward.x()), depth))
                         mark.strokes.push_back(std::move(line));
                 }
-                mark.strokes.push_back({p.at - 1.5 * out, p.at + std::min(1.5, 0.2 * room) * out});   // tick on the sew line
+                mark.strokes.push_back({p.at - 1.5 * out, p.at + std::min(1.5, 0.2 * (mark.cut - p.at).norm()) * out});   // tick on the sew line
                 piece.notches.push_back(std::move(mark));
             }
         }

@@ -19,7 +19,8 @@ NotchStyle notch_style(int style);
 /// Chooses style and notch positions of every sewn seam. With m notches an interval is L / (m + first): the
 /// first notch stands `first` intervals from the start, the last one a whole interval from the end, so the
 /// row read backwards never fits and no piece can be sewn in reverse. Seams that share a panel differ in
-/// style; so do all seams as long as there are no more than n_notch_styles.
-void place_notches(const PanelParams& params, PanelSet& set);
+/// style; so do all seams as long as there are no more than n_notch_styles. Panels lie flat already: notches
+/// are no further apart than params.notch_spacing_mm on the cloth, nor on the surface.
+void place_notches(PanelSet& set);
 
 }  // namespace formwork

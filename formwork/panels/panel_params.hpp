@@ -29,6 +29,11 @@ inline constexpr std::array paper_names{
     arcsim::EnumName{Paper::a3, "A3", "297 x 420 mm, tiled"},
     arcsim::EnumName{Paper::a0, "A0", "plotter: one page as large as the pattern"}};
 
+enum class Lettering { characters, paths };
+inline constexpr std::array lettering_names{
+    arcsim::EnumName{Lettering::characters, "characters", "as text in a font"},
+    arcsim::EnumName{Lettering::paths, "paths", "as single strokes, for lasers, plotters and programs without the font"}};
+
 /// An allowance that differs from the general one.
 struct SeamAllowance {
     int seam = 1;              // as printed, 1-based; rims are numbered with the seams
@@ -56,6 +61,7 @@ struct PanelParams {
     double roll_width_mm = 1500, nest_gap_mm = 5;
     bool quarter_turns = false;
     Paper paper = Paper::a4;
+    Lettering text = Lettering::characters;
     int cut_count = 1;
 };
 
@@ -86,6 +92,7 @@ void visit(Archive& a, PanelParams& p) {
     a.optional("nest_gap_mm", p.nest_gap_mm, "mm", between(0, 100), "Least distance between nested pieces.");
     a.optional("quarter_turns", p.quarter_turns, "Pieces may also lie across the roll (fabrics without a preferred thread).");
     a.choice("paper", p.paper, paper_names, "Paper of the printed pattern.");
+    a.choice("text", p.text, lettering_names, "How names and lengths are written in the SVG and DXF files.");
     a.optional("cut_count", p.cut_count, "1", between(1, 100), "How many bags are cut; printed on every piece, counted in the bill.");
 }
 

@@ -25,6 +25,7 @@ using Line = std::vector<Vector2d>;
 
 struct NotchMark {
     int seam = 0;
+    NotchShape shape = NotchShape::slit;
     Vector2d sew, cut;            // its points on the sew line and on the cut line
     std::vector<Line> strokes;    // in the allowance, from the cut line inwards
 };
@@ -37,18 +38,31 @@ struct TextMark {
     int seam = -1;        // that it names; -1: the piece
 };
 
+/// Which seam an edge of the sew line belongs to, and which side of it.
+struct SewEdge {
+    int seam = 0, side = 0;
+    bool rim = false;   // folded and hemmed, not sewn to another piece
+    bool operator==(const SewEdge&) const = default;
+};
+
 /// One piece of cloth as it is cut and marked.
 struct PatternPiece {
     int panel = 0;
     std::string name;                  // P03
     Line sew, cut;                     // closed, counter-clockwise, first point not repeated
-    std::vector<std::array<int, 2>> sew_seam;   // per edge of `sew`: its seam and the side of it
+    std::vector<SewEdge> sew_seam;     // per edge of `sew`
     std::vector<Line> folds;           // rim: the hem is folded here; on the sew line
     std::vector<NotchMark> notches;
     std::array<Vector2d, 2> grain;     // arrow along the warp, tail and head
     std::vector<TextMark> texts;
     double cut_area = 0;               // mm²
 };
+
+/// The two heads of the grain arrow.
+std::array<Line, 2> grain_heads(const PatternPiece& piece);
+
+/// The piece with all its marks turned about the origin, rad.
+PatternPiece turned_piece(PatternPiece piece, double angle);
 
 /// Where a piece lies on the roll: turned by 90° times quarter_turns, then moved.
 struct Placement {
@@ -63,24 +77,26 @@ struct Nest {
     std::vector<Placement> placement;   // per piece
     double length = 0, width = 0;       // of the rectangle in use, mm
     double utilisation = 0;             // area of the pieces over roll width times length
+    double utilisation_bound = 0;       // no nesting reaches more: the roll is as long as the longest piece or the area asks
 };
 
 enum class StepKind { dart, join, close, hem, opening };
 std::string_view to_string(StepKind k);
 
-/// One seam of the assembly, in order.
+/// One seam or hem of the assembly, in order.
 struct SewingStep {
     StepKind kind = StepKind::join;
-    int seam = 0;
-    std::array<int, 2> panel{-1, -1};
-    double open_before = 0;   // m of still open edges of the parts at hand, beside this seam: the hand's way out
+    std::vector<int> seams;    // one; of a hem: the rims of one loop, as they follow each other
+    std::vector<int> panels;   // that it joins: two, one for a dart; of a hem: the pieces around the loop
+    double open_before = 0;    // m of still open edges of the parts at hand, beside this seam: the hand's way out
 };
 
 struct Pattern {
     PatternInfo info;
     PanelParams params;
     std::vector<PatternPiece> pieces;
-    Nest nest;
+    Nest nest;                  // of one bag
+    double roll_length = 0;     // mm, for all params.cut_count bags nested together
     std::vector<SewingStep> order;
 };
 

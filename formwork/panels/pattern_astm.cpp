@@ -12,7 +12,7 @@ namespace {
 
 // AAMA layer numbers; 84, 85, 87 are the exact copies of 1, 8 and 14 that ASTM asks for.
 constexpr const char *boundary = "1", *turn_points = "2", *curve_points = "3", *notches = "4", *grain = "7", *internal = "8",
-                     *sew_line = "14", *notes = "15", *boundary_copy = "84", *internal_copy = "85", *sew_copy = "87";
+                     *sew_line = "14", *notes = "15", *boundary_copy = "84", *internal_copy = "85", *sew_copy = "87", *tee_notches = "80";
 constexpr double turn_angle_cosine = 0.8660254;   // 30°: a corner
 constexpr std::size_t longest_name = 20;
 
@@ -48,7 +48,7 @@ void write_block(DxfText& dxf, const Pattern& pattern, const PatternPiece& piece
     system("Material: FABRIC");
     dxf.polyline(boundary, piece.cut, true);
     outline_points(dxf, piece.cut);
-    for (const NotchMark& notch : piece.notches) dxf.point(notches, notch.cut);
+    for (const NotchMark& notch : piece.notches) dxf.point(notch.shape == NotchShape::tee ? tee_notches : notches, notch.cut);
     dxf.line(grain, piece.grain[0], piece.grain[1]);
     for (const Line& fold : piece.folds) dxf.polyline(internal, fold, false);
     dxf.polyline(sew_line, piece.sew, true);

@@ -1,12 +1,13 @@
 #include "formwork/panels/dxf_text.hpp"
 #include "formwork/panels/pattern_files.hpp"
 #include "formwork/panels/polygon.hpp"
+#include "formwork/panels/text_strokes.hpp"
 
 namespace formwork {
 namespace {
 
-constexpr std::array<std::pair<const char*, int>, 6> layers{{   // AutoCAD colours: red 1, green 3, blue 5, black 7
-    {"CUT", 1}, {"SEW", 5}, {"FOLD", 4}, {"NOTCH", 3}, {"GRAIN", 5}, {"LABEL", 7}}};
+constexpr std::array<std::pair<const char*, int>, 5> layers{{   // AutoCAD colours: red 1, green 3, blue 5, black 7
+    {"CUT", 1}, {"SEW", 5}, {"NOTCH", 3}, {"GRAIN", 5}, {"LABEL", 7}}};
 
 void write_tables(DxfText& dxf, const Box& box) {
     dxf.pair(0, "SECTION"), dxf.pair(2, "HEADER");
@@ -41,12 +42,18 @@ std::string pattern_dxf(const Pattern& pattern) {
         };
         dxf.polyline("CUT", laid(piece.cut), true);
         dxf.polyline("SEW", laid(piece.sew), true);
-        for (const Line& fold : piece.folds) dxf.polyline("FOLD", laid(fold), false);
         for (const NotchMark& notch : piece.notches)
             for (const Line& stroke : notch.strokes)
                 for (std::size_t k = 0; k + 1 < stroke.size(); ++k) dxf.line("NOTCH", place(stroke[k]), place(stroke[k + 1]));
         dxf.line("GRAIN", place(piece.grain[0]), place(piece.grain[1]));
-        for (const TextMark& t : piece.texts) dxf.text("LABEL", place(t.at), t.height, t.angle + place.turn(), t.text, true);
+        for (const Line& head : grain_heads(piece)) dxf.polyline("GRAIN", laid(head), false);
+        for (const TextMark& t : piece.texts) {
+            if (pattern.params.text == Lettering::characters) {
+                dxf.text("LABEL", place(t.at), t.height, t.angle + place.turn(), t.text, true);
+            } else {
+                for (const Line& stroke : text_strokes(t)) dxf.polyline("LABEL", laid(stroke), false);
+            }
+        }
     }
     dxf.pair(0, "ENDSEC");
     return dxf.finish();

@@ -10,11 +10,14 @@ namespace formwork {
 
 /// Each format is text of its own; lengths in millimetres, at 1:1.
 
-/// One user unit is 1 mm. Layers sheet, cut (red), sew and fold (blue), notch (green), grain, label, guide;
-/// hairlines, no fills. Paths carry data-piece and data-seam.
+/// One user unit is 1 mm. Layers cut (red), sew and fold (blue), notch (green), grain, label, guide; hairlines,
+/// no fills, no line twice. Paths carry data-piece and data-seam. Lettering as params.text says.
 std::string pattern_svg(const Pattern& pattern);
+/// The same of one piece alone, unturned.
+std::string piece_svg(const Pattern& pattern, std::size_t piece);
 
-/// DXF R12 for CAD and laser programs: layers CUT, SEW, FOLD, NOTCH, GRAIN, LABEL; outlines are closed polylines.
+/// DXF R12 for CAD and laser programs: layers CUT, SEW, NOTCH, GRAIN, LABEL; outlines are closed polylines, and
+/// no line is drawn twice: the rim is part of SEW.
 std::string pattern_dxf(const Pattern& pattern);
 
 /// DXF in the dialect of apparel CAD, ASTM D6673 with AAMA layer numbers: one block per piece, boundary on 1,
@@ -24,10 +27,10 @@ std::string pattern_dxf(const Pattern& pattern);
 std::string pattern_astm(const Pattern& pattern);
 
 /// Pages of `pattern.params.paper`: an overview with page map, 100 mm square and instructions, then the tiles
-/// with overlap, corner crosses and neighbours' names; on A0 one page as large as the pattern.
+/// with overlap, corner crosses and neighbours' names; on A0 one page as large as the pattern. The bytes of a PDF.
 /// Writes to `file` itself (libharu wants a file name).  @throws InputError  file cannot be written, or the
 /// one page would be longer than PDF allows
-void write_pattern_pdf(const Pattern& pattern, const std::filesystem::path& file);
+std::string pattern_pdf(const Pattern& pattern);
 
 /// One row per panel: sizes in mm and m², distortion, grain.
 std::string panels_csv(const PanelSet& set, const Pattern& pattern);
@@ -35,19 +38,22 @@ std::string panels_csv(const PanelSet& set, const Pattern& pattern);
 std::string seams_csv(const PanelSet& set, const Pattern& pattern);
 /// The same with notch positions and the chains of vertices, for programs.
 std::string seams_json(const PanelSet& set, const Segmentation& s, const Pattern& pattern);
+/// One row per face of the cut mesh: its panel, max |sigma - 1|, and the angle between its target direction and
+/// the weave, modulo 90°: where a curved grain would serve better.
+std::string faces_csv(const PanelSet& set);
 /// Bill of materials: fabric by roll width, seam and hem metres, liquid.
 std::string bom_csv(const PanelSet& set, const Pattern& pattern);
 
 /// What a stage reports about its files.
 struct PatternFiles {
     std::vector<std::string> names;   // relative to the folder
-    double utilisation = 0;           // of the roll
+    double utilisation = 0, utilisation_bound = 0;   // of the roll; what no nesting exceeds
     double roll_length_m = 0;
 };
 
-/// Writes panels.svg, panels.dxf, panels-astm.dxf, panels-<paper>.pdf, panels.csv, seams.csv, seams.json,
-/// bom.csv and sewn_rest.obj. Everything is computed first and written to temporary names, then renamed:
-/// an error leaves the folder as it was.
+/// Writes panels.svg, pieces/P01.svg ..., panels.dxf, panels-astm.dxf, panels-<paper>.pdf, panels.csv, seams.csv,
+/// seams.json, faces.csv, bom.csv and sewn_rest.obj. Everything is computed first, then written to temporary
+/// names, then renamed: an error leaves the folder as it was. Pieces and papers of an earlier run are removed.
 PatternFiles write_patterns(const PanelSet& set, const Segmentation& s, const Pattern& pattern,
                             const std::filesystem::path& folder);
 

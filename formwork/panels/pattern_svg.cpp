@@ -1,14 +1,18 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <sstream>
 
 #include "formwork/panels/pattern_files.hpp"
+#include "formwork/panels/polygon.hpp"
+#include "formwork/panels/text_strokes.hpp"
 
 namespace formwork {
 namespace {
 
 constexpr double margin = 10;          // mm around the pieces
 constexpr double scale_strip = 20;     // mm below them, for the scale bar
+constexpr double scale_bar = 100;      // mm
 constexpr double hairline = 0.1;       // mm
 constexpr double capital_share = 0.72; // height of a capital over the font size
 
@@ -33,7 +37,7 @@ std::string escaped(const std::string& s) {
 /// From a piece's own millimetres to the page's, y down.
 struct Page {
     const Nest& nest;
-    double width() const { return nest.length + 2 * margin; }
+    double width() const { return std::max(nest.length, scale_bar) + 2 * margin; }
     double height() const { return nest.width + 2 * margin + scale_strip; }
     Vector2d operator()(int piece, const Vector2d& p) const {
         const Vector2d q = nest.placement[piece](p);
@@ -55,17 +59,18 @@ void open_layer(std::ostream& out, const char* name, const char* colour) {
         << "\" stroke-width=\"" << hairline << "\">\n";
 }
 
-/// The outline as one chain per seam side, so that a program finds matching edges again.
-void write_sew_chains(std::ostream& out, const Page& page, int index, const PatternPiece& piece) {
+/// The outline as one chain per seam side, so that a program finds matching edges again; rims or the others.
+void write_sew_chains(std::ostream& out, const Page& page, int index, const PatternPiece& piece, bool rims) {
     const std::size_t n = piece.sew.size();
     std::size_t start = 0;
     while (start + 1 < n && piece.sew_seam[start] == piece.sew_seam[(start + n - 1) % n]) ++start;
     for (std::size_t i = 0; i < n;) {
-        const std::array<int, 2> seam = piece.sew_seam[(start + i) % n];
-        Line chain{piece.sew[(start + i) % n]};
         const std::size_t first = (start + i) % n;
-        while (i < n && piece.sew_seam[(start + i) % n] == seam) chain.push_back(piece.sew[(start + ++i) % n]);
-        out << "<path id=\"" << piece.name << "-sew-" << first << "\" data-piece=\"" << piece.name << "\" data-seam=\"" << seam[0] + 1
+        const SewEdge& edge = piece.sew_seam[first];
+        Line chain{piece.sew[first]};
+        while (i < n && piece.sew_seam[(start + i) % n] == edge) chain.push_back(piece.sew[(start + ++i) % n]);
+        if (edge.rim != rims) continue;
+        out << "<path id=\"" << piece.name << (rims ? "-fold-" : "-sew-") << first << "\" data-piece=\"" << piece.name << "\" data-seam=\"" << edge.seam + 1
             << "\" d=\"" << path_data(page, index, chain, false) << "\"/>\n";
     }
 }
@@ -81,13 +86,24 @@ void write_text(std::ostream& out, const Vector2d& at, double height, double ang
 void write_guide(std::ostream& out, const Page& page) {
     const double x = margin, y = page.height() - margin;
     open_layer(out, "guide", "#808080");
-    out << "<path id=\"scale-100mm\" d=\"M" << number(x) << ',' << number(y - 4) << " L" << number(x) << ',' << number(y) << " L" << number(x + 100)
-        << ',' << number(y) << " L" << number(x + 100) << ',' << number(y - 4) << "\"/>\n<g fill=\"#808080\" stroke=\"none\" font-family=\"Helvetica, Arial, sans-serif\">\n";
+    out << "<path id=\"scale-100mm\" d=\"M" << number(x) << ',' << number(y - 4) << " L" << number(x) << ',' << number(y) << " L" << number(x + scale_bar)
+        << ',' << number(y) << " L" << number(x + scale_bar) << ',' << number(y - 4) << "\"/>\n<g fill=\"#808080\" stroke=\"none\" font-family=\"Helvetica, Arial, sans-serif\">\n";
     write_text(out, {x + 2, y - 2}, 3, 0, "100 mm", "");
     out << "</g>\n</g>\n";
 }
 
 }  // namespace
+
+std::string piece_svg(const Pattern& pattern, std::size_t piece) {
+    const Box box = bounding_box(pattern.pieces[piece].cut);
+    Pattern alone;
+    alone.info = pattern.info, alone.params = pattern.params;
+    alone.pieces = {pattern.pieces[piece]};
+    alone.info.name += "  " + pattern.pieces[piece].name;
+    alone.nest.placement = {{0, -box.low}};
+    alone.nest.length = box.size().x(), alone.nest.width = box.size().y();
+    return pattern_svg(alone);
+}
 
 std::string pattern_svg(const Pattern& pattern) {
     const Page page{pattern.nest};
@@ -96,7 +112,7 @@ std::string pattern_svg(const Pattern& pattern) {
            "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" width=\""
         << number(page.width()) << "mm\" height=\"" << number(page.height()) << "mm\" viewBox=\"0 0 " << number(page.width()) << ' '
         << number(page.height()) << "\">\n<title>" << escaped(pattern.info.name) << "</title>\n<desc>1 user unit = 1 mm; "
-        << pattern.pieces.size() << " pieces, seen from outside; x along the warp</desc>\n";
+        << pattern.pieces.size() << (pattern.pieces.size() == 1 ? " piece" : " pieces") << ", seen from outside; x along the warp</desc>\n";
     const auto each = [&](const char* layer, const char* colour, auto&& body) {
         open_layer(out, layer, colour);
         for (std::size_t i = 0; i < pattern.pieces.size(); ++i) body(static_cast<int>(i), pattern.pieces[i]);
@@ -108,27 +124,34 @@ std::string pattern_svg(const Pattern& pattern) {
     each("cut", "#ff0000", [&](int i, const PatternPiece& p) {
         out << "<path id=\"" << p.name << "-cut\" data-piece=\"" << p.name << "\" d=\"" << path_data(page, i, p.cut, true) << "\"/>\n";
     });
-    each("sew", "#0000ff", [&](int i, const PatternPiece& p) { write_sew_chains(out, page, i, p); });
+    each("sew", "#0000ff", [&](int i, const PatternPiece& p) { write_sew_chains(out, page, i, p, false); });
+    each("fold", "#0000ff", [&](int i, const PatternPiece& p) { write_sew_chains(out, page, i, p, true); });
     each("notch", "#00aa00", [&](int i, const PatternPiece& p) {
         for (const NotchMark& notch : p.notches)
             for (const Line& stroke : notch.strokes)
                 line(i, stroke, "data-piece=\"" + p.name + "\" data-seam=\"" + std::to_string(notch.seam + 1) + "\"");
     });
     each("grain", "#0000ff", [&](int i, const PatternPiece& p) {
-        const Vector2d d = (p.grain[1] - p.grain[0]).normalized(), side(-d.y(), d.x());
         line(i, {p.grain[0], p.grain[1]}, "id=\"" + p.name + "-grain\" data-piece=\"" + p.name + "\"");
-        for (int end : {0, 1}) {
-            const Vector2d tip = p.grain[end], back = tip + (end ? -4.0 : 4.0) * d;
-            line(i, {back + 1.5 * side, tip, back - 1.5 * side}, "data-piece=\"" + p.name + "\"");
-        }
+        for (const Line& head : grain_heads(p)) line(i, head, "data-piece=\"" + p.name + "\"");
     });
-    out << "<g id=\"label\" inkscape:groupmode=\"layer\" inkscape:label=\"label\" fill=\"#000000\" stroke=\"none\" text-anchor=\"middle\" "
-           "font-family=\"Helvetica, Arial, sans-serif\">\n";
-    for (std::size_t i = 0; i < pattern.pieces.size(); ++i)
-        for (const TextMark& t : pattern.pieces[i].texts)
-            write_text(out, page(static_cast<int>(i), t.at), t.height, t.angle + pattern.nest.placement[i].turn(), t.text,
-                       " data-piece=\"" + pattern.pieces[i].name + "\"");
-    out << "</g>\n";
+    if (pattern.params.text == Lettering::paths) {
+        each("label", "#000000", [&](int i, const PatternPiece& p) {
+            for (const TextMark& t : p.texts) {
+                std::string d;
+                for (const Line& stroke : text_strokes(t)) d += (d.empty() ? "" : " ") + path_data(page, i, stroke, false);
+                out << "<path data-piece=\"" << p.name << "\" data-text=\"" << escaped(t.text) << "\" d=\"" << d << "\"/>\n";
+            }
+        });
+    } else {
+        out << "<g id=\"label\" inkscape:groupmode=\"layer\" inkscape:label=\"label\" fill=\"#000000\" stroke=\"none\" text-anchor=\"middle\" "
+               "font-family=\"Helvetica, Arial, sans-serif\">\n";
+        for (std::size_t i = 0; i < pattern.pieces.size(); ++i)
+            for (const TextMark& t : pattern.pieces[i].texts)
+                write_text(out, page(static_cast<int>(i), t.at), t.height, t.angle + pattern.nest.placement[i].turn(), t.text,
+                           " data-piece=\"" + pattern.pieces[i].name + "\"");
+        out << "</g>\n";
+    }
     write_guide(out, page);
     out << "</svg>\n";
     return out.str();

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -15,9 +16,8 @@ constexpr double mm = 1000;   // per metre
 std::string number(double v) { return arcsim::format_short(v, 8); }
 
 int step_of(const Pattern& pattern, int seam) {
-    for (std::size_t k = 0; k < pattern.order.size(); ++k)
-        if (pattern.order[k].seam == seam) return static_cast<int>(k) + 1;
-    return 0;
+    const auto has_it = [&](const SewingStep& step) { return std::find(step.seams.begin(), step.seams.end(), seam) != step.seams.end(); };
+    return static_cast<int>(std::find_if(pattern.order.begin(), pattern.order.end(), has_it) - pattern.order.begin()) + 1;
 }
 
 std::string notch_words(const PanelSeam& seam) {
@@ -93,12 +93,25 @@ std::string seams_json(const PanelSet& set, const Segmentation& s, const Pattern
     }
     nlohmann::ordered_json order = nlohmann::ordered_json::array();
     for (const SewingStep& step : pattern.order) {
-        nlohmann::ordered_json entry{{"step", order.size() + 1}, {"kind", std::string(to_string(step.kind))}, {"seam", seam_name(set, step.seam)}};
-        for (int panel : step.panel)
-            if (panel >= 0) entry["pieces"].push_back(panel_name(panel));
+        nlohmann::ordered_json entry{{"step", order.size() + 1}, {"kind", std::string(to_string(step.kind))}};
+        for (int seam : step.seams) entry["seams"].push_back(seam_name(set, seam));
+        for (int panel : step.panels) entry["pieces"].push_back(panel_name(panel));
         order.push_back(std::move(entry));
     }
     return nlohmann::ordered_json{{"name", pattern.info.name}, {"units", "mm"}, {"seams", seams}, {"assembly", order}}.dump(1) + "\n";
+}
+
+std::string faces_csv(const PanelSet& set) {
+    std::size_t n = 0;
+    for (const FlatPanel& p : set.panels) n += p.face.size();
+    std::vector<std::string> row(n);
+    for (const FlatPanel& p : set.panels)
+        for (std::size_t k = 0; k < p.face.size(); ++k)
+            row[p.face[k]] = std::to_string(p.face[k]) + ',' + panel_name(p.id) + ',' + arcsim::format_short(p.face_distortion[k], 4) + ',' +
+                             arcsim::format_short(p.grain_error_deg[k], 4) + '\n';
+    std::string out = "face,panel,distortion,grain_error_deg\n";
+    for (const std::string& r : row) out += r;
+    return out;
 }
 
 std::string bom_csv(const PanelSet& set, const Pattern& pattern) {
@@ -113,10 +126,11 @@ std::string bom_csv(const PanelSet& set, const Pattern& pattern) {
     };
     row("bags", count, "pcs", pattern.info.name);
     row("pieces", count * static_cast<double>(pattern.pieces.size()), "pcs", "");
-    row("fabric", count * pattern.nest.length / mm, "m", "of a roll " + number(set.params.roll_width_mm) + " mm wide, nested");
+    row("fabric", pattern.roll_length / mm, "m", "of a roll " + number(set.params.roll_width_mm) + " mm wide, all bags nested together");
     row("fabric_area", count * cut_area, "m2", "pieces with allowances");
     row("fabric_area_net", count * sew_area, "m2", "inside the sew lines");
-    row("utilisation", 100 * pattern.nest.utilisation, "%", "of the roll length used");
+    row("utilisation", 100 * pattern.nest.utilisation, "%",
+        "of the roll used for one bag; the roll's width, the longest piece and the area allow " + arcsim::format_short(100 * pattern.nest.utilisation_bound, 3) + " %");
     if (pattern.info.fabric_density > 0) row("fabric_mass", count * cut_area * pattern.info.fabric_density, "kg", "");
     row("seams", count * sewn, "m", "");
     row("hems", count * hemmed, "m", "");

@@ -30,21 +30,21 @@ PatternPiece outline_piece(const PanelSet& set, int panel) {
     PatternPiece piece;
     piece.panel = panel;
     piece.name = panel_name(panel);
-    std::map<std::pair<int, int>, std::array<int, 2>> seam_of;   // outline edge, in the outline's direction
+    std::map<std::pair<int, int>, SewEdge> seam_of;   // outline edge, in the outline's direction
     for (std::size_t i = 0; i < set.seams.size(); ++i)
         for (int side : {0, 1}) {
             const SeamSide& chain = set.seams[i].side[side];
             if (chain.panel != panel) continue;
             for (std::size_t k = 0; k + 1 < chain.vertex.size(); ++k)
                 seam_of[side == 0 ? std::pair{chain.vertex[k], chain.vertex[k + 1]} : std::pair{chain.vertex[k + 1], chain.vertex[k]}] =
-                    {static_cast<int>(i), side};
+                    {static_cast<int>(i), side, set.seams[i].is_rim()};
         }
     std::vector<double> allowance;
     for (std::size_t i = 0; i < p.boundary.size(); ++i) {
-        const std::array<int, 2> seam = seam_of.at({p.boundary[i], p.boundary[(i + 1) % p.boundary.size()]});
+        const SewEdge edge = seam_of.at({p.boundary[i], p.boundary[(i + 1) % p.boundary.size()]});
         piece.sew.push_back(mm * p.u[p.boundary[i]]);
-        piece.sew_seam.push_back(seam);
-        allowance.push_back(allowance_mm(set, seam[0]));
+        piece.sew_seam.push_back(edge);
+        allowance.push_back(allowance_mm(set, edge.seam));
     }
     piece.cut = cut_line(piece.sew, allowance, set.params.corners, set.params.mitre_limit);
     piece.cut_area = signed_area(piece.cut);

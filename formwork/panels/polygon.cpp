@@ -59,15 +59,19 @@ bool contains(const Polygon& p, const Vector2d& point) {
     return inside;
 }
 
-double distance_to_outline(const Polygon& p, const Vector2d& point) {
+Vector2d nearest_on_outline(const Polygon& p, const Vector2d& point) {
+    Vector2d nearest = p.front();
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < p.size(); ++i) {
         const Vector2d a = p[i], d = p[(i + 1) % p.size()] - a;
         const double length2 = d.squaredNorm(), t = length2 > 0 ? std::clamp((point - a).dot(d) / length2, 0.0, 1.0) : 0;
-        least = std::min(least, (a + t * d - point).squaredNorm());
+        const Vector2d q = a + t * d;
+        if ((q - point).squaredNorm() < least) least = (q - point).squaredNorm(), nearest = q;
     }
-    return std::sqrt(least);
+    return nearest;
 }
+
+double distance_to_outline(const Polygon& p, const Vector2d& point) { return (nearest_on_outline(p, point) - point).norm(); }
 
 std::optional<double> ray_to_outline(const Polygon& p, const Vector2d& origin, const Vector2d& direction, double from) {
     std::optional<double> nearest;

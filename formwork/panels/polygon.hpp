@@ -20,6 +20,7 @@ Box bounding_box(const Polygon& p);
 double signed_area(const Polygon& p);   // > 0: counter-clockwise
 double perimeter(const Polygon& p);
 bool contains(const Polygon& p, const Vector2d& point);
+Vector2d nearest_on_outline(const Polygon& p, const Vector2d& point);
 double distance_to_outline(const Polygon& p, const Vector2d& point);
 
 /// How far the ray from `origin` along the unit vector `direction` runs until it meets the outline; hits

@@ -19,23 +19,22 @@ constexpr double length_tolerance = 5e-6;   // of a stretch: far below what scis
 constexpr double energy_tolerance = 1e-4;   // of E - 4: the equality costs little, the last digits nothing
 constexpr double relative_shift = 1e-9;     // keeps H definite along the rigid motions
 
-/// One equality: weighted lengths of chords of a seam's chain, the same on both sides.
+/// One equality: the length of a seam's chain, each edge with a weight, the same on both sides.
 ///
-/// The multiplier of a length is a tension along the seam, and where the chain has kinks a tension pulls
-/// sideways: with the exact lengths alone one side grows spikes to gain length. So the bulk of the work is
-/// left to chords over a window, which do not see kinks, weighted by hat functions, whose tension is
-/// continuous along the seam. The exact lengths between notches then settle what the kinks differ by.
+/// The multiplier of a length is a tension along the seam; where it jumps or where the chain has kinks it pulls
+/// sideways, and one side grows spikes to gain length. So most equalities weigh the edges by overlapping hat
+/// functions, whose tension is continuous along the seam; those between notches, which is what is sewn, then
+/// settle the little that the hats leave over.
 struct Equality {
-    struct Chord {
-        int from, to;    // along the chain
+    struct Edge {
+        int first;       // of its two vertices along the chain
         double weight;
     };
     int seam = 0;
     double rest_length = 0;   // weighted, on the surface, m
-    std::vector<Chord> chords;
+    std::vector<Edge> edges;
 };
 
-constexpr double window_per_spacing = 0.25;   // chord over notch spacing
 constexpr double hats_per_spacing = 2;
 
 std::vector<Equality> equalities(const PanelSet& set, const Segmentation& s) {
@@ -46,45 +45,26 @@ std::vector<Equality> equalities(const PanelSet& set, const Segmentation& s) {
         const int n = static_cast<int>(nodes.size()) - 1;   // edges
         std::vector<double> at{0};
         for (int k = 0; k < n; ++k) at.push_back(at.back() + (s.mesh.x[nodes[k + 1]] - s.mesh.x[nodes[k]]).norm());
-        const double length = at.back(), spacing = set.params.notch_spacing_mm / 1000;
-        const double window = std::min(window_per_spacing * spacing, length / 8);
-
-        // A window slides along the seam; where it reaches over an end it is cut off there.
-        std::vector<Equality::Chord> chords;
-        for (int k = 0, to = 0; k <= n; ++k) {
-            const double share = (at[std::min(k + 1, n)] - at[std::max(k - 1, 0)]) / 2;   // of the seam that vertex k stands for
-            while (to < n && (at[to] < at[k] + window || to <= k)) ++to;
-            const bool whole = at[to] >= at[k] + window;
-            if (to > k) chords.push_back({k, to, share / (whole ? at[to] - at[k] : window)});
-            if (k > 0 && at[k] < window) chords.push_back({0, k, share / window});
-        }
-        const int hats = std::max(1, static_cast<int>(std::round(hats_per_spacing * length / spacing)));
-        for (int h = 0; h <= hats; ++h) {
+        const double length = at.back();
+        const auto add = [&](const auto& weight) {
             Equality equality;
             equality.seam = static_cast<int>(i);
-            for (const Equality::Chord& c : chords) {
-                const double middle = (at[c.from] + at[c.to]) / 2 / length * hats;
-                const double value = c.weight * std::max(0.0, 1 - std::abs(middle - h));
-                if (value <= 0) continue;
-                equality.chords.push_back({c.from, c.to, value});
-                equality.rest_length += value * (at[c.to] - at[c.from]);
+            for (int k = 0; k < n; ++k) {
+                const double w = weight(at[k], at[k + 1]);
+                if (w <= 0) continue;
+                equality.edges.push_back({k, w});
+                equality.rest_length += w * (at[k + 1] - at[k]);
             }
-            if (!equality.chords.empty()) all.push_back(std::move(equality));
-        }
-        // What is sewn is the chain itself: its exact length between notches.
+            if (!equality.edges.empty()) all.push_back(std::move(equality));
+        };
+        const int hats = std::max(1, static_cast<int>(std::round(hats_per_spacing * length / (set.params.notch_spacing_mm / 1000))));
+        for (int h = 0; h <= hats; ++h)
+            add([&](double from, double to) { return std::max(0.0, 1 - std::abs((from + to) / 2 / length * hats - h)); });
         std::vector<double> cuts{0};
         for (double f : set.seams[i].notch_rest) cuts.push_back(f * length);
         cuts.push_back(length);
-        for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
-            Equality equality;
-            equality.seam = static_cast<int>(i);
-            equality.rest_length = cuts[c + 1] - cuts[c];
-            for (int k = 0; k < n; ++k) {
-                const double share = (std::min(at[k + 1], cuts[c + 1]) - std::max(at[k], cuts[c])) / (at[k + 1] - at[k]);
-                if (share > 0) equality.chords.push_back({k, k + 1, share});
-            }
-            all.push_back(std::move(equality));
-        }
+        for (std::size_t c = 0; c + 1 < cuts.size(); ++c)
+            add([&](double from, double to) { return (std::min(to, cuts[c + 1]) - std::max(from, cuts[c])) / (to - from); });
     }
     return all;
 }
@@ -174,8 +154,8 @@ private:
             double sum = 0;
             for (int i : {0, 1}) {
                 const SeamSide& side = set_.seams[equalities_[j].seam].side[i];
-                for (const auto& [from, to, weight] : equalities_[j].chords)
-                    sum += (i == 0 ? weight : -weight) * (point(side.panel, side.vertex[to], t) - point(side.panel, side.vertex[from], t)).norm();
+                for (const auto& [k, weight] : equalities_[j].edges)
+                    sum += (i == 0 ? weight : -weight) * (point(side.panel, side.vertex[k + 1], t) - point(side.panel, side.vertex[k], t)).norm();
             }
             c[j] = sum;
         }
@@ -231,8 +211,8 @@ private:
             for (int i : {0, 1}) {
                 const SeamSide& side = set_.seams[equality.seam].side[i];
                 if (side.panel != p) continue;
-                for (const auto& [from, to, weight] : equality.chords) {
-                    const int a = side.vertex[from], b = side.vertex[to];
+                for (const auto& [k, weight] : equality.edges) {
+                    const int a = side.vertex[k], b = side.vertex[k + 1];
                     const Vector2d d = (i == 0 ? weight : -weight) * (point(p, b, 0) - point(p, a, 0)).normalized();
                     block.b.col(r).segment<2>(2 * b) += d;
                     block.b.col(r).segment<2>(2 * a) -= d;

@@ -70,6 +70,23 @@ std::vector<std::set<int>> stems(const PanelSet& set, const Segmentation& s) {
     return before;
 }
 
+/// The rims of every loop of the boundary, in the order in which they follow each other.
+std::vector<std::vector<int>> rim_loops(const PanelSet& set, const Segmentation& s) {
+    std::map<int, int> starting;   // node -> rim that begins there
+    for (std::size_t i = 0; i < set.seams.size(); ++i)
+        if (set.seams[i].is_rim()) starting[s.seams[i].nodes.front()] = static_cast<int>(i);
+    std::vector<std::vector<int>> loops;
+    while (!starting.empty()) {
+        std::vector<int> loop;
+        for (auto next = starting.begin(); next != starting.end(); next = starting.find(s.seams[loop.back()].nodes.back())) {
+            loop.push_back(next->second);
+            starting.erase(next);
+        }
+        loops.push_back(std::move(loop));
+    }
+    return loops;
+}
+
 /// A slit that ends inside its panel; a seam between two far edges of one panel closes a tube instead.
 bool is_dart(const PanelSeam& seam) {
     return seam.side[0].panel == seam.side[1].panel && (seam.side[0].vertex.front() == seam.side[1].vertex.front() ||
@@ -104,17 +121,14 @@ std::vector<SewingStep> sewing_order(const PanelSet& set, const Segmentation& s,
     const std::vector<std::set<int>> before = stems(set, s);
     std::vector<char> done(n, 0);
     std::vector<SewingStep> order;
-    const auto open_beside = [&](int i, const SewingStep& step) {
-        double open = parts.open(step.panel[0]);
-        if (step.panel[1] >= 0 && parts.find(step.panel[0]) != parts.find(step.panel[1])) open += parts.open(step.panel[1]);
-        return open - (step.panel[1] >= 0 ? 2 : 0) * set.seams[i].rest_length;
-    };
     const auto sew = [&](int i, StepKind kind) {
-        SewingStep step{kind, i, {set.seams[i].side[0].panel, set.seams[i].side[1].panel}, 0};
-        step.open_before = open_beside(i, step);
-        if (!set.seams[i].is_rim()) parts.sew(step.panel[0], step.panel[1], set.seams[i].rest_length);
+        const int a = set.seams[i].side[0].panel, b = set.seams[i].side[1].panel;
+        SewingStep step{kind, {i}, {a}, parts.open(a) - 2 * set.seams[i].rest_length};
+        if (a != b) step.panels.push_back(b);
+        if (parts.find(a) != parts.find(b)) step.open_before += parts.open(b);
+        parts.sew(a, b, set.seams[i].rest_length);
         done[i] = 1;
-        order.push_back(step);
+        order.push_back(std::move(step));
     };
 
     while (true) {
@@ -135,17 +149,25 @@ std::vector<SewingStep> sewing_order(const PanelSet& set, const Segmentation& s,
         const int a = seam.side[0].panel, b = seam.side[1].panel;
         sew(best, is_dart(seam) ? StepKind::dart : parts.find(a) != parts.find(b) ? StepKind::join : StepKind::close);
     }
-    std::vector<int> rims;
-    for (int i = 0; i < n; ++i)
-        if (set.seams[i].is_rim()) rims.push_back(i);
-    std::sort(rims.begin(), rims.end(), [&](int a, int b) { return mean_height(s, a, up) < mean_height(s, b, up); });
-    for (int i : rims) sew(i, StepKind::hem);
+    std::vector<std::vector<int>> loops = rim_loops(set, s);
+    const auto height = [&](const std::vector<int>& loop) {
+        double sum = 0, length = 0;
+        for (int i : loop) sum += set.seams[i].rest_length * mean_height(s, i, up), length += set.seams[i].rest_length;
+        return sum / length;
+    };
+    std::stable_sort(loops.begin(), loops.end(), [&](const auto& a, const auto& b) { return height(a) < height(b); });
+    for (const std::vector<int>& loop : loops) {
+        SewingStep step{StepKind::hem, loop, {}, parts.open(set.seams[loop.front()].side[0].panel)};
+        for (int i : loop)
+            if (const int p = set.seams[i].side[0].panel; std::find(step.panels.begin(), step.panels.end(), p) == step.panels.end()) step.panels.push_back(p);
+        order.push_back(std::move(step));
+    }
     if (!has_rim && opening >= 0) sew(opening, StepKind::opening);
 
     constexpr double closed = 1e-9;   // m
     for (std::size_t k = 0; k + 1 < order.size(); ++k)
         if (order[k].kind != StepKind::hem && order[k].open_before < closed)
-            throw arcsim::NumericalError("panels: step " + std::to_string(k + 1) + ", seam " + seam_name(set, order[k].seam) +
+            throw arcsim::NumericalError("panels: step " + std::to_string(k + 1) + ", seam " + seam_name(set, order[k].seams.front()) +
                                          ", would have to be sewn inside a closed bag.");
     return order;
 }

@@ -145,35 +145,28 @@ std::vector<ReportPicture> draw_pictures(const ReportInput& in, int threads) {
 
 std::vector<ReportStep> report_steps(const PanelSet& set, const std::vector<SewingStep>& order) {
     std::vector<ReportStep> steps;
+    const auto listed = [](const std::vector<int>& numbers, const auto& name) {
+        std::string text;
+        for (const int i : numbers) text += (text.empty() ? "" : ", ") + name(i);
+        return text;
+    };
+    const auto seam = [&](int i) { return seam_name(set, i); };
     for (const SewingStep& s : order) {
-        const std::string name = seam_name(set, s.seam) + ": ";
-        const auto panel = [&](int side) { return panel_name(s.panel[side]); };
-        const std::string length =
-            std::to_string(static_cast<long>(1000 * set.seams[s.seam].side[0].length + 0.5)) +
-            " mm";
-        ReportStep step;
-        step.seam = s.seam;
-        for (const int p : s.panel)
-            if (p >= 0) step.panels.push_back(p);
+        double length = 0;
+        for (const int i : s.seams) length += set.seams[i].side[0].length;
+        std::string what;
+        const std::string first = panel_name(s.panels.front()), last = panel_name(s.panels.back());
         switch (s.kind) {
-            case StepKind::dart:
-                step.text = name + "close the dart in " + panel(0);
-                break;
-            case StepKind::join:
-                step.text = name + "join " + panel(0) + " to " + panel(1);
-                break;
-            case StepKind::close:
-                step.text = name + "close " + panel(0) + " to " + panel(1);
-                break;
-            case StepKind::hem:
-                step.text = name + "hem the rim of " + panel(0);
-                break;
-            case StepKind::opening:
-                step.text = name + "last, the pouring opening at " + panel(0);
-                break;
+            case StepKind::dart: what = "close the dart in " + first; break;
+            case StepKind::join: what = "join " + first + " to " + last; break;
+            case StepKind::close: what = "close " + (first == last ? first + " on itself" : first + " to " + last); break;
+            case StepKind::hem: what = "hem the rim of " + listed(s.panels, panel_name); break;
+            case StepKind::opening: what = "last, the pouring opening between " + first + " and " + last; break;
         }
-        step.text += ", " + length;
-        steps.push_back(std::move(step));
+        if (s.kind == StepKind::hem && &s == &order.back()) what = "last, the pouring opening: " + what;
+        steps.push_back({listed(s.seams, seam) + ": " + what + ", " +
+                             std::to_string(static_cast<long>(1000 * length + 0.5)) + " mm",
+                         s.seams.front(), s.panels});
     }
     return steps;
 }

@@ -1,85 +1,20 @@
 #include "formwork/report/stroke_font.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <sstream>
-#include <string>
+#include <vector>
 
-#include "formwork/report/stroke_glyphs.hpp"
+#include "formwork/lettering/stroke_text.hpp"
 
 namespace formwork {
 namespace {
 
-constexpr double unit_per_size = 0.07;  // capitals are 10 units = 0.7 of the size
-constexpr double stroke_width = 1.15;   // units, regular cut
-constexpr double gap = 2.5;             // units between two letters
+constexpr double capital_per_size = 0.7;
+constexpr double stroke_width = 0.115;  // of a capital's height, regular cut
 
 struct Stroke {
     double x0, y0, x1, y1;
 };
-
-char32_t next_code(std::string_view s, size_t& i) {
-    const auto byte = [&](size_t k) {
-        return k < s.size() ? static_cast<unsigned char>(s[k]) : 0u;
-    };
-    const unsigned c = byte(i);
-    if (c < 0x80) return s[i++];
-    if ((c >> 5) == 6) {
-        const char32_t code = (c & 0x1f) << 6 | (byte(i + 1) & 0x3f);
-        i += 2;
-        return code;
-    }
-    if ((c >> 4) == 14) {
-        const char32_t code = (c & 0x0f) << 12 | (byte(i + 1) & 0x3f) << 6 | (byte(i + 2) & 0x3f);
-        i += 3;
-        return code;
-    }
-    ++i;
-    return 0;
-}
-
-void add_arc(std::vector<Stroke>& out, double cx, double cy, double rx, double ry, double from,
-             double to) {
-    const int n = std::max(4, static_cast<int>(std::abs(to - from) / 15));
-    for (int k = 0; k < n; ++k) {
-        const double a = (from + (to - from) * k / n) * M_PI / 180;
-        const double b = (from + (to - from) * (k + 1) / n) * M_PI / 180;
-        out.push_back({cx + rx * std::cos(a), cy + ry * std::sin(a), cx + rx * std::cos(b),
-                       cy + ry * std::sin(b)});
-    }
-}
-
-void add_glyph(std::vector<Stroke>& out, const Glyph& g) {
-    std::istringstream in(g.strokes);
-    double x = 0, y = 0;
-    char command = 0;
-    while (in >> command) {
-        if (command == 'M') {
-            in >> x >> y;
-        } else if (command == 'L') {
-            double a, b;
-            in >> a >> b;
-            out.push_back({x, y, a, b});
-            x = a, y = b;
-        } else if (command == 'Q') {
-            double a, b, x1, y1;
-            in >> a >> b >> x1 >> y1;
-            const double x0 = x, y0 = y;
-            for (int k = 1; k <= 8; ++k) {
-                const double t = k / 8.0, s = 1 - t;
-                const double nx = s * s * x0 + 2 * s * t * a + t * t * x1,
-                             ny = s * s * y0 + 2 * s * t * b + t * t * y1;
-                out.push_back({x, y, nx, ny});
-                x = nx, y = ny;
-            }
-        } else {
-            double cx, cy, rx, ry, from, to;
-            in >> cx >> cy >> rx >> ry >> from >> to;
-            add_arc(out, cx, cy, rx, ry, from, to);
-        }
-    }
-}
 
 double distance(const Stroke& s, double px, double py) {
     const double dx = s.x1 - s.x0, dy = s.y1 - s.y0, l2 = dx * dx + dy * dy;
@@ -124,27 +59,22 @@ void paint_strokes(Image& image, const std::vector<Stroke>& strokes, double widt
 }  // namespace
 
 double text_width(std::string_view utf8, const TextStyle& style) {
-    double w = 0;
-    for (size_t i = 0; i < utf8.size();) w += find_glyph(next_code(utf8, i)).width + gap;
-    return std::max(0.0, w - gap) * unit_per_size * style.size_px;
+    return stroke_text(utf8).width * capital_per_size * style.size_px;
 }
 
 void draw_text(Image& image, double x, double y, std::string_view utf8, const TextStyle& style) {
-    const double unit = unit_per_size * style.size_px;
-    const double width = text_width(utf8, style);
-    double pen = x - (style.anchor == Anchor::left    ? 0
-                      : style.anchor == Anchor::right ? width
-                                                      : width / 2);
-    std::vector<Stroke> all, one;
-    for (size_t i = 0; i < utf8.size();) {
-        const Glyph& g = find_glyph(next_code(utf8, i));
-        one.clear();
-        add_glyph(one, g);
-        for (const Stroke& s : one)
-            all.push_back({pen + s.x0 * unit, y - s.y0 * unit, pen + s.x1 * unit, y - s.y1 * unit});
-        pen += (g.width + gap) * unit;
-    }
-    const double stroke = std::max(1.0, stroke_width * style.weight * unit);
+    const double capital = capital_per_size * style.size_px;
+    const StrokeText text = stroke_text(utf8);
+    const double width = text.width * capital;
+    const double pen = x - (style.anchor == Anchor::left    ? 0
+                            : style.anchor == Anchor::right ? width
+                                                            : width / 2);
+    std::vector<Stroke> all;
+    for (const auto& line : text.lines)
+        for (size_t k = 0; k + 1 < line.size(); ++k)
+            all.push_back({pen + line[k].x() * capital, y - line[k].y() * capital,
+                           pen + line[k + 1].x() * capital, y - line[k + 1].y() * capital});
+    const double stroke = std::max(1.0, stroke_width * style.weight * capital);
     if (style.halo_px > 0) paint_strokes(image, all, stroke + 2 * style.halo_px, {1, 1, 1});
     paint_strokes(image, all, stroke, style.colour);
 }

@@ -26,6 +26,7 @@ JsonValue summary_of(const PanelSet& set, const PatternFiles& files, double wall
     v.set("files", std::move(names));
     v.set("roll_length_m", files.roll_length_m);
     v.set("roll_utilisation", files.utilisation);
+    v.set("roll_utilisation_bound", files.utilisation_bound);
     v.set("wall_s", wall);
     return v;
 }

@@ -19,13 +19,14 @@ TEST_CASE("patterns are written where PATTERN_FOLDER says", "[.write-patterns]")
         info.name = name;
         const PatternFiles files = write_patterns(set, s, make_pattern(set, s, info), std::filesystem::path(folder) / name);
         INFO(name);
-        CHECK(files.names.size() == 9);
+        CHECK(files.names.size() == 10 + set.panels.size());
         CHECK(files.utilisation > 0.1);
     };
     write("sphere", cut_surfaces::sphere_in_octants(16, 0.15), {});
     PanelParams column;
     column.allowances = {{1, 15}};
     column.paper = Paper::a3;
+    column.text = Lettering::paths;
     write("column",
           cut_surfaces::tube_in_strips(48, 24, 0.6, [](double t) { return 0.1 + 0.035 * std::cos(2 * M_PI * t) + 0.02 * t; },
                                        {0, 0.2, 0.45, 0.8}),

@@ -100,9 +100,9 @@ TEST_CASE("the sewing order is told by the names on the sheets") {
     set.seams[1].side[1].panel = 4;
     set.seams[2].side[0].panel = 4;
     const std::vector<ReportStep> steps =
-        report_steps(set, {{StepKind::join, 1, {0, 4}, 0}, {StepKind::hem, 2, {4, -1}, 0}});
+        report_steps(set, {{StepKind::join, {1}, {0, 4}, 0}, {StepKind::hem, {2}, {4}, 0}});
     CHECK(steps[0].text == "S02: join P01 to P05, 242 mm");
     CHECK(steps[0].panels == std::vector<int>{0, 4});
-    CHECK(steps[1].text == "R03: hem the rim of P05, 0 mm");
+    CHECK(steps[1].text == "R03: last, the pouring opening: hem the rim of P05, 0 mm");
     CHECK(steps[1].panels == std::vector<int>{4});
 }

@@ -46,12 +46,13 @@ TEST_CASE("a closed bag is sewn so that its highest seam comes last and every st
         CHECK(order.back().kind == StepKind::opening);
         std::vector<char> sewn(12, 0);
         for (const SewingStep& step : order) {
-            CHECK_FALSE(sewn[step.seam]);
-            sewn[step.seam] = 1;
+            REQUIRE(step.seams.size() == 1);
+            CHECK_FALSE(sewn[step.seams[0]]);
+            sewn[step.seams[0]] = 1;
             if (&step != &order.back()) CHECK(step.open_before > 0.1);
         }
         double last = 0;
-        for (int node : s.seams[order.back().seam].nodes) last += s.mesh.x[node].dot(up) / s.seams[order.back().seam].nodes.size();
+        for (int node : s.seams[order.back().seams[0]].nodes) last += s.mesh.x[node].dot(up) / s.seams[order.back().seams[0]].nodes.size();
         CHECK(last > 0.1);   // a meridian of the upper half
         int joins = 0;
         for (const SewingStep& step : order) joins += step.kind == StepKind::join;
@@ -59,16 +60,22 @@ TEST_CASE("a closed bag is sewn so that its highest seam comes last and every st
     }
 }
 
-TEST_CASE("an open bag is closed first and hemmed last, the lower rim before the upper") {
+TEST_CASE("an open bag is closed first and hemmed last, once around each rim, the lower before the upper") {
     const Segmentation s = open_tube();
     const PanelSet set = make_panels(s, {});
     const std::vector<SewingStep> order = sewing_order(set, s, {0, 0, 1});
-    REQUIRE(order.size() == 9);
+    REQUIRE(order.size() == 5);
     CHECK(order[0].kind == StepKind::join);
     CHECK(order[2].kind == StepKind::close);
-    for (int k = 3; k < 9; ++k) {
+    for (int k : {3, 4}) {
         CHECK(order[k].kind == StepKind::hem);
-        CHECK((s.mesh.x[s.seams[order[k].seam].nodes[0]].z() > 0.2) == (k >= 6));
+        REQUIRE(order[k].seams.size() == 3);
+        CHECK(order[k].panels.size() == 3);
+        for (int i = 0; i < 3; ++i) {
+            const Seam &rim = s.seams[order[k].seams[i]], &next = s.seams[order[k].seams[(i + 1) % 3]];
+            CHECK(rim.nodes.back() == next.nodes.front());
+            CHECK((s.mesh.x[rim.nodes[0]].z() > 0.2) == (k == 4));
+        }
     }
 }
 
@@ -77,7 +84,7 @@ TEST_CASE("a seam that ends in the middle of a straight run is sewn before the r
     const PanelSet set = make_panels(s, {});
     for (const Vector3d& up : {Vector3d(0, 1, 0), Vector3d(0, -1, 0)}) {
         const std::vector<SewingStep> order = sewing_order(set, s, up);
-        CHECK(order[0].panel[0] + order[0].panel[1] == 1);   // panels 1 and 2, the stem of the T
+        CHECK(order[0].panels[0] + order[0].panels[1] == 1);   // panels 1 and 2, the stem of the T
     }
 }
 
@@ -112,11 +119,25 @@ TEST_CASE("bad input leaves the pattern folder as it was") {
     set.params = params;
     set.params.paper = Paper::a0;
     Pattern long_bag = make_pattern(set, s, {});
-    long_bag.nest.length = 6000;
+    long_bag.pieces[0].cut[0].x() -= 6000;
     CHECK_THROWS_WITH(write_patterns(set, s, long_bag, folder), Catch::Contains("/formwork/panels/paper"));
     CHECK(std::filesystem::last_write_time(folder / "panels.svg") == before);
     for (const auto& entry : std::filesystem::directory_iterator(folder)) CHECK(entry.path().filename().string().find("tmp") == std::string::npos);
-    CHECK(std::distance(std::filesystem::directory_iterator(folder), {}) == 9);
+    CHECK(std::distance(std::filesystem::directory_iterator(folder), {}) == 10 + 1);   // and the folder of single pieces
+    CHECK(std::distance(std::filesystem::directory_iterator(folder / "pieces"), {}) == 3);
+}
+
+TEST_CASE("pieces and papers of an earlier run are not left to be cut by mistake") {
+    const Segmentation s = open_tube();
+    const auto folder = fresh_folder("stale_patterns");
+    std::filesystem::create_directories(folder / "pieces");
+    for (const char* name : {"pieces/P07.svg", "pieces/Patch.svg", "panels-a3.pdf"}) std::ofstream(folder / name) << "old";
+    const PanelSet set = make_panels(s, {});
+    write_patterns(set, s, make_pattern(set, s, {}), folder);
+    CHECK_FALSE(std::filesystem::exists(folder / "pieces/P07.svg"));
+    CHECK_FALSE(std::filesystem::exists(folder / "panels-a3.pdf"));
+    CHECK(std::filesystem::exists(folder / "pieces/Patch.svg"));
+    CHECK(std::filesystem::exists(folder / "pieces/P03.svg"));
 }
 
 TEST_CASE("warp follows the larger stretch, or the smaller one when asked") {

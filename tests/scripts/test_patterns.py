@@ -60,7 +60,7 @@ def check_svg(folder, panels, seams):
     near(view[2], float(width[:-2]), 1e-6, "svg: one user unit is 1 mm")
     near(view[3], float(height[:-2]), 1e-6, "svg: one user unit is 1 mm")
     layers = {g.get("id"): g for g in root.findall(SVG + "g")}
-    check(set(layers) == {"cut", "sew", "notch", "grain", "label", "guide"}, f"svg: layers {sorted(layers)}")
+    check(set(layers) == {"cut", "sew", "fold", "notch", "grain", "label", "guide"}, f"svg: layers {sorted(layers)}")
     check(layers["cut"].get("stroke") == "#ff0000" and layers["sew"].get("stroke") == "#0000ff", "svg: red cut, blue sew")
     cuts = layers["cut"].findall(SVG + "path")
     check(len(cuts) == len(panels), "svg: one cut line per panel")
@@ -75,18 +75,33 @@ def check_svg(folder, panels, seams):
         for x, y in points:
             check(0 <= x <= view[2] and 0 <= y <= view[3], "svg: every point on the page")
     for seam in seams:   # the sew line of a seam is as long on both pieces, and as long as the table says
-        sides = [p for p in layers["sew"].findall(SVG + "path") if p.get("data-seam") == seam["seam"]]
+        sides = [p for p in layers["sew" if seam["panel_b"] else "fold"].findall(SVG + "path") if p.get("data-seam") == seam["seam"]]
         check(len(sides) == (2 if seam["panel_b"] else 1), f"svg: sides of {seam['name']}")
         for path in sides:
             near(length(path_points(path.get("d"))), float(seam["length_a_mm"]), 0.02 + 0.0005 * path.get("d").count(" "),
                  f"svg: length of {seam['name']}")
     bar = path_points(next(p for p in layers["guide"] if p.get("id") == "scale-100mm").get("d"))
     near(box(bar)[0], 100, 1e-6, "svg: scale bar")
-    labels = " ".join(t.text for t in layers["label"].iter(SVG + "text"))
+    written = [t.text for t in layers["label"].iter(SVG + "text")]
+    drawn = [p.get("data-text") for p in layers["label"].iter(SVG + "path")]
+    check(bool(written) != bool(drawn), "svg: lettering is text or paths")
+    labels = " ".join(written + drawn)
     for panel in panels:
         check(f"{panel['name']} of {len(panels)}" in labels, f"svg: label of {panel['name']}")
-    for seam in seams:
-        check(seam["name"] in labels, f"svg: label of {seam['name']}")
+    for seam in seams:   # on both pieces: what it is sewn to, and how long it is
+        sides = [seam["panel_a"], seam["panel_b"]] if seam["panel_b"] else [""]
+        for side in sides:
+            text = rf"{seam['name']} > {side}  [\d.]+ mm" if side else rf"{seam['name']} hem  [\d.]+ mm"
+            found = re.findall(text, labels)
+            check(found, f"svg: label of {seam['name']} to {side}")
+            for label in found:
+                near(float(label.split()[-2]), float(seam["length_a_mm"]), 0.06, f"svg: length of {seam['name']}")
+    for panel in panels:
+        alone = ET.parse(folder / "pieces" / f"{panel['name']}.svg").getroot()
+        near(float(alone.get("width")[:-2]), float(alone.get("viewBox").split()[2]), 1e-6, "svg: a piece alone is 1:1")
+        outline = next(p for p in alone.iter(SVG + "path") if p.get("id") == f"{panel['name']}-cut")
+        near(box(path_points(outline.get("d")))[0], float(panel["cut_warp_size_mm"]), 0.01, f"svg: {panel['name']} alone along the warp")
+        check(len([p for p in alone.iter(SVG + "path") if (p.get("id") or "").endswith("-cut")]) == 1, "svg: one piece in its file")
     run("rsvg-convert", "-w", "400", str(folder / "panels.svg"), "-o", str(folder / "panels.png"))
 
 
@@ -107,6 +122,12 @@ def check_dxf(folder, panels):
             near(box(points)[1], float(panel[prefix + "weft_size_mm"]), 0.01, f"dxf: {layer} of {panel['name']} along the weft")
     check(len(space.query('LINE[layer=="GRAIN"]')) == len(panels), "dxf: grain lines")
     check(len(space.query('LINE[layer=="NOTCH"]')) > 0, "dxf: notches")
+    check({e.dxf.layer for e in space} == {"CUT", "SEW", "NOTCH", "GRAIN", "LABEL"}, "dxf: layers")
+    lines = [tuple(sorted(((round(e.dxf.start.x, 3), round(e.dxf.start.y, 3)), (round(e.dxf.end.x, 3), round(e.dxf.end.y, 3)))))
+             for e in space.query("LINE")]
+    check(len(lines) == len(set(lines)), "dxf: no line twice")
+    texts = len(space.query('TEXT[layer=="LABEL"]'))
+    check(bool(texts) != bool(len(space.query('POLYLINE[layer=="LABEL"]'))), "dxf: lettering is text or polylines")
     check(document.layers.get("CUT").color == 1 and document.layers.get("SEW").color == 5, "dxf: colours")
 
 
@@ -174,11 +195,16 @@ def check_tables(folder, panels, seams):
             check(float(row["mismatch_between_notches"]) < 0.002, f"seams: {row['name']} matches within 0.2 %")
             cuts = [0.0, *entry["notches"], 1.0]
             gaps = [(b - a) * float(row["length_a_mm"]) for a, b in zip(cuts, cuts[1:])]
-            check(max(gaps) < 106, f"notches of {row['name']} are at most 100 mm apart on the surface")
+            check(max(gaps) <= 100, f"notches of {row['name']} are at most 100 mm apart")
             check(all(abs(a - (1 - b)) * float(row["length_a_mm"]) > 4 for a in entry["notches"] for b in entry["notches"]),
                   f"notches of {row['name']} cannot be read backwards")
-    check([s["step"] for s in data["assembly"]] == list(range(1, len(seams) + 1)), "json: every seam has its step")
+    check(sorted(name for s in data["assembly"] for name in s["seams"]) == sorted(row["name"] for row in seams), "json: every seam has its step")
+    check([s["step"] for s in data["assembly"]] == list(range(1, len(data["assembly"]) + 1)), "json: steps are numbered")
+    faces = rows(folder / "faces.csv")
+    check([int(f["face"]) for f in faces] == list(range(sum(int(p["faces"]) for p in panels))), "faces: every face of the cut mesh once")
     for row in panels:
+        own = [float(f["distortion"]) for f in faces if f["panel"] == row["name"]]
+        near(max(own), float(row["max_distortion"]), 1e-3 * max(own) + 1e-9, f"faces: largest distortion of {row['name']}")
         check(int(row["flips"]) == 0 and int(row["overlaps"]) == 0, "panels: no flips, no overlaps")
     bill = {row["item"]: row for row in rows(folder / "bom.csv")}
     near(float(bill["liquid"]["quantity"]), 12.3, 1e-6, "bom: litres")

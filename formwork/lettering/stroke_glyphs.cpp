@@ -1,4 +1,4 @@
-#include "formwork/report/stroke_glyphs.hpp"
+#include "formwork/lettering/stroke_glyphs.hpp"
 
 #include <iterator>
 
