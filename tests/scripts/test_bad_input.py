@@ -43,7 +43,7 @@ def case(name, scene_text, mesh, expected, command=("run",), extra=(), mesh_name
     arguments = [str(program), *command, str(folder / "bag.json"), *extra]
     if command[0] != "check":
         arguments += ["-o", str(folder / "out")]
-    run = subprocess.run(arguments, capture_output=True, text=True, timeout=120)
+    run = subprocess.run(arguments, capture_output=True, text=True, timeout=600)
     errors = [line for line in run.stderr.splitlines() if line.startswith("formwork: ")]
     if run.returncode != 2:
         failures.append(f"{name}: exit code {run.returncode}, expected 2; stderr: {run.stderr}")
@@ -104,7 +104,7 @@ case("closed mesh", scene(), obj(faces=GOOD_F + [(4, 5, 7), (4, 7, 6)]), ["/form
 
 def said(arguments, expected):
     """Slips in the command itself, and doubts about values that are legal."""
-    run = subprocess.run([str(program), *arguments], capture_output=True, text=True, timeout=120, cwd=work)
+    run = subprocess.run([str(program), *arguments], capture_output=True, text=True, timeout=600, cwd=work)
     for words in expected:
         if words not in run.stdout + run.stderr:
             failures.append(f"{arguments}: expected \"{words}\" in: {run.stdout[-300:]}{run.stderr}")

@@ -36,7 +36,7 @@ def run_page(page, folder):
                     failures.append(f"{page.name}: {command}: not a script")
                 continue
             expected = int(re.search(r"exit (\d+)", remark).group(1)) if "exit " in remark else 0
-            run = subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, text=True, timeout=600, env=environment)
+            run = subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, text=True, timeout=1200, env=environment)
             print(f"{page.name}: {command.strip()} -> {run.returncode}")
             if run.returncode != expected:
                 failures.append(f"{page.name}: {command.strip()}: exit {run.returncode}, expected {expected}: {run.stderr.strip()[-600:]}")

@@ -25,7 +25,7 @@ def expect(ok, what):
 
 
 def formwork(*arguments, **options):
-    return subprocess.run([str(program), *map(str, arguments)], capture_output=True, text=True, timeout=300, env=environment, **options)
+    return subprocess.run([str(program), *map(str, arguments)], capture_output=True, text=True, timeout=900, env=environment, **options)
 
 
 def snapshot(folder):
@@ -71,10 +71,11 @@ expect(run.returncode in (0, 3), f"the reference runs to its end (exit {run.retu
 def stopped_after_inflate(out, send):
     """Starts a run and sends a signal as soon as the first stage is in summary.json. Returns exit code and stderr."""
     process = subprocess.Popen([str(program), "run", str(scene), "-o", str(out)], stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True, env=environment)
-    while process.poll() is None and not (out / "finished.json").exists() or '"inflate"' not in (out / "finished.json").read_text():
+    finished = out / "finished.json"
+    while process.poll() is None and not (finished.exists() and '"inflate"' in finished.read_text()):
         time.sleep(0.002)
     process.send_signal(send)
-    return process.wait(timeout=120), process.stderr.read()
+    return process.wait(timeout=900), process.stderr.read()
 
 
 # ---- Ctrl-C, then --resume
