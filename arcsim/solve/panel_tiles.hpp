@@ -15,12 +15,13 @@
 /// and small panels run like large ones. Tiles of 3 row blocks x `tile_columns` columns fill the register file.
 namespace arcsim::panel {
 
+// Vectors wider than a register are passed among these inline functions only: their calling convention is nobody's concern.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 #if defined(__AVX512F__)
 inline constexpr int vector_bytes = 64, tile_columns = 8;
-#elif defined(__AVX__)
+#else   // without AVX the compiler makes each of two registers: four doubles hold a tile's columns
 inline constexpr int vector_bytes = 32, tile_columns = 4;
-#else
-inline constexpr int vector_bytes = 16, tile_columns = 4;
 #endif
 inline constexpr int tile_blocks = 3;
 
