@@ -33,7 +33,7 @@ CostEstimate estimate_equilibrium(int vertices, const SolverParams& solver, cons
     const Ratio method = of_static(solver.method);
     CostEstimate e;
     e.least_cpu_s = static_s * (woven ? 3 : 0.7) * method.least;
-    e.most_cpu_s = static_s * (woven ? 6 : 1.3) * (wrinkles ? 3 : 1) * method.most;
+    e.most_cpu_s = static_s * (woven ? 18 : 1.3) * (wrinkles ? 3 : 1) * method.most;
     const bool lu = woven || solver.linear_solver == LinearSolverChoice::umfpack;
     e.memory_mb = 15 + (lu ? 15e-3 : 6.2e-3) * vertices;
     if (solver.method == SolverMethod::dynamic_relaxation) e.memory_mb = 15 + 2.5e-3 * vertices;
