@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -22,11 +23,13 @@ public:
             for (int k = 0; k < 3; ++k) {
                 const int a = s_.faces[f][k], b = s_.faces[f][(k + 1) % 3];
                 around_[a].push_back(f);
-                if (cut.is_seam(a, b)) seams_.insert(std::minmax(a, b));
+                if (cut.is_seam(a, b)) seams_[std::minmax(a, b)] = cut.is_given(a, b);
                 if (cut.is_border(a, b)) {
                     borders_[a].insert(b);
                     borders_[b].insert(a);
                     if (cut.is_rim(a, b)) fixed_[a] = fixed_[b] = 1;
+                    if (cut.is_given(a, b))   // asked for just here
+                        for (int v : {a, b}) fixed_[v] = fixed_[v] || is_input_node(v);
                 }
             }
         for (int v : fixed) fixed_[v] = 1;
@@ -208,9 +211,10 @@ private:
             set_face(f, t);
         }
         if (along_seam) {
+            const bool given = seams_.at(std::minmax(a, beyond));
             seams_.erase(std::minmax(a, b));
             seams_.erase(std::minmax(a, beyond));
-            seams_.insert(std::minmax(b, beyond));
+            seams_[std::minmax(b, beyond)] = given;
             borders_[b].erase(a);
             borders_[b].insert(beyond);
             borders_[beyond].erase(a);
@@ -235,7 +239,10 @@ private:
             r.surface.faces.push_back({r.node[t[0]], r.node[t[1]], r.node[t[2]]});
             r.source_face.push_back(source_face_[f]);
         }
-        for (const auto& [a, b] : seams_) r.seams.emplace_back(r.node[a], r.node[b]);
+        for (const auto& [edge, given] : seams_) {
+            r.seams.emplace_back(r.node[edge.first], r.node[edge.second]);
+            r.given.push_back(given);
+        }
         return r;
     }
 
@@ -246,7 +253,7 @@ private:
     std::vector<int> source_face_;
     std::vector<std::vector<int>> around_;      // node -> faces
     std::vector<std::set<int>> borders_;        // node -> other ends of its seam and rim edges
-    std::set<std::pair<int, int>> seams_;
+    std::map<std::pair<int, int>, bool> seams_; // edge -> was it asked for
     std::vector<char> fixed_;
 };
 

@@ -12,6 +12,7 @@ struct RepairedMesh {
     std::vector<SurfacePoint> source;
     std::vector<int> source_face;
     std::vector<std::pair<int, int>> seams;   // edges
+    std::vector<char> given;                  // per seam edge: it was asked for
     std::vector<int> node;                    // per node of the cut mesh: where it is now; -1: gone
 };
 

@@ -29,10 +29,11 @@ void find_junctions(const CutMesh& cut, PanelPatch& p) {
     // where the patch's two borders are one seam and one rim, or where another seam leaves on the far side, is
     // a junction; the far side is looked at by walking round the node in the cut mesh.
     p.junction.assign(p.node.size(), 0);
+    p.given.assign(p.node.size(), 0);
     for (int v = 0; v < p.surface.n_nodes(); ++v) {
         if (!p.topology.is_boundary_node(v)) continue;
         const int node = p.node[v];
-        int seams = 0, rims = 0;
+        int seams = 0, rims = 0, given = 0;
         const int first = p.face[p.topology.node_faces[v].front()];
         int f = first;
         for (int turn = 0; turn < 2; ++turn) {   // counter-clockwise, then clockwise if a rim stopped us
@@ -42,13 +43,14 @@ void find_junctions(const CutMesh& cut, PanelPatch& p) {
                 const int k = corner_of(t, node);
                 const int other = turn == 0 ? t[(k + 2) % 3] : t[(k + 1) % 3];
                 const int next = turn == 0 ? cut.face_left(node, other) : cut.face_left(other, node);
-                if (cut.is_seam(node, other)) ++seams;
+                if (cut.is_seam(node, other)) ++seams, given += cut.is_given(node, other);
                 if (next < 0) ++rims;
                 f = next;
             } while (f >= 0 && f != first && ++steps < 1000);
             if (f == first) break;
             f = first;
         }
+        p.given[v] = seams > 0 && given == seams;
         p.junction[v] = seams >= 3 || (seams >= 1 && rims >= 1) || seams == 1;
     }
 }
@@ -144,8 +146,39 @@ std::vector<int> corner_nodes(const PanelPatch& p) {
     std::vector<int> corners;
     for (const auto& loop : p.topology.boundary_loops)
         for (int v : loop)
-            if (std::abs(boundary_angle(p, v) - std::numbers::pi) > (p.junction[v] ? turn : rim_turn)) corners.push_back(v);
+            if (!p.given[v] && std::abs(boundary_angle(p, v) - std::numbers::pi) > (p.junction[v] ? turn : rim_turn)) corners.push_back(v);
     return corners;
+}
+
+OutlineShape outline_shape(const PanelPatch& p, double reach) {
+    constexpr double corner = 110 * std::numbers::pi / 180, inner = 230 * std::numbers::pi / 180;
+    OutlineShape shape;
+    for (const auto& loop : p.topology.boundary_loops) {
+        const int n = static_cast<int>(loop.size());
+        double round = 0;
+        for (int i = 0; i < n; ++i) round += (p.surface.x[loop[i]] - p.surface.x[loop[(i + 1) % n]]).norm();
+        const double arm = std::min(reach, round / 8);
+        for (int i = 0; i < n; ++i) {
+            const double angle = boundary_angle(p, loop[i]);
+            if (angle > inner) ++shape.inner_corners;
+            if (angle > corner) continue;
+            const auto along = [&](int step) {   // the point of the outline `arm` away from the corner
+                double left = arm;
+                for (int j = i, count = 0; count < n; ++count) {
+                    const int k = (j + step + n) % n;
+                    const Vector3d &a = p.surface.x[loop[j]], &b = p.surface.x[loop[k]];
+                    const double l = (b - a).norm();
+                    if (l >= left) return Vector3d(a + left / l * (b - a));
+                    left -= l;
+                    j = k;
+                }
+                return p.surface.x[loop[i]];
+            };
+            const double gap = (along(1) - along(-1)).norm();
+            shape.sharpest = std::min({shape.sharpest, angle, 2 * std::asin(std::min(1., gap / (2 * arm)))});
+        }
+    }
+    return shape;
 }
 
 double patch_width(const PanelPatch& p) {
