@@ -70,6 +70,7 @@ struct Regularisation {
 /// CPU seconds by kind of work.
 struct SolverTimes {
     double assembly = 0, ordering = 0, symbolic = 0, numeric = 0, solve = 0, line_search = 0, total = 0;
+    double coarse = 0;   // everything on coarser meshes; in no other figure
 };
 
 struct EquilibriumResult {
@@ -79,8 +80,10 @@ struct EquilibriumResult {
     double residual = 0;                // |f_free| / |applied load|
     double rounding_floor = 0;          // estimate of the residual that rounding alone makes; same unit
     bool at_rounding_floor = false;     // converged to the floor, which lies above the tolerance
-    int iterations = 0;
+    int iterations = 0;                 // on the mesh itself
     int factorizations = 0;
+    int coarse_iterations = 0;          // on the coarser meshes that it started from
+    int coarse_factorizations = 0;
     int vertices = 0, faces = 0, free_dofs = 0;
     double wall_s = 0, cpu_s = 0, peak_rss_mb = 0;
     double fill_level_m = 0;            // coordinate along up; NaN without liquid

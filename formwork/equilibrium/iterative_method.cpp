@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "arcsim/solve/linear_solver.hpp"
+
 namespace formwork {
 namespace {
 
@@ -24,6 +26,24 @@ void IterativeMethod::begin() {
 bool IterativeMethod::is_overstretched(const VectorXd& x, const VectorXd& next) const {
     const MembraneForce& m = system_.membrane();
     return !next.allFinite() || !(m.stretch_range(next)[0] <= largest_growth * std::max(1.0, m.stretch_range(x)[0]));
+}
+
+bool IterativeMethod::response(const VectorXd& x, const VectorXd& g, VectorXd& y) {
+    const bool unsymmetric = system_.membrane().law().is_strongly_unsymmetric();
+    BlockMatrix H(system_.pattern(), unsymmetric ? BlockMatrix::Kind::general : BlockMatrix::Kind::symmetric);
+    VectorXd border, rhs = -g;
+    system_.update_level(x);
+    system_.tangent(x, 0, H, border, arcsim::Tangent::exact);
+    system_.fixed().clear(rhs);
+    const auto solver = arcsim::make_linear_solver(unsymmetric ? arcsim::SolverKind::umfpack : arcsim::SolverKind::cholmod);
+    solver->analyze(system_.pattern());
+    if (!solver->try_factorize(H)) return false;
+    solver->solve(rhs, y);
+    if (border.size() > 0) {   // Sherman and Morrison: the unknown level
+        const VectorXd s = solver->solve(border);
+        y -= border.dot(y) / (1 + border.dot(s)) * s;
+    }
+    return true;
 }
 
 /// Noise of the residual: what a change of every coordinate by half a unit in its last place does to the forces.

@@ -7,6 +7,9 @@ namespace formwork {
 /// What the methods in time, dynamic relaxation and the projective method share: progress, history, and when to end.
 class IterativeMethod : public EquilibriumMethod {
 public:
+    /// By a factorisation of its own: what these methods factorise, if anything, is another matrix.
+    bool response(const VectorXd& x, const VectorXd& g, VectorXd& y) override;
+
     int iterations() const override { return iterations_; }
     const std::vector<IterationReport>& history() const override { return history_; }
     const SolverTimes& times() const override { return times_; }

@@ -32,6 +32,11 @@ public:
     /// @param T0   initial regularisation of methods that take one, N/m; 0 near a solution
     virtual SolveOutcome solve(VectorXd& x, double tolerance, double T0, const std::string& phase) = 0;
 
+    /// y = -K(x)^-1 g: where the shape goes, to first order, when the gradient changes by g; the level of a prescribed
+    /// volume follows.
+    /// @returns false when K is not definite: the equilibrium is not a stable one
+    virtual bool response(const VectorXd& x, const VectorXd& g, VectorXd& y) = 0;
+
     virtual int iterations() const = 0;
     virtual int factorizations() const = 0;
     virtual const std::vector<IterationReport>& history() const = 0;

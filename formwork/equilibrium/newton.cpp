@@ -110,6 +110,20 @@ bool NewtonSolver::direction(double& T0, double relative) {
     return false;
 }
 
+bool NewtonSolver::response(const VectorXd& x, const VectorXd& g, VectorXd& y) {
+    system_.gradient(x, g_);   // brings the level to x
+    {
+        Stopwatch watch(times_.assembly);
+        system_.tangent(x, 0, H_, border_, arcsim::Tangent::exact);
+    }
+    g_ = g;
+    system_.fixed().clear(g_);
+    double T0 = 0;
+    const bool found = H_.is_general() ? direction_by_lu(T0, true) : direction(T0, 0);
+    y = d_;
+    return found && T0 == 0;
+}
+
 /// Noise of the residual: what a change of every coordinate by half a unit in its last place does to the forces.
 double NewtonSolver::rounding_floor(const VectorXd& x, double load) {
     constexpr double half_ulp = std::numeric_limits<double>::epsilon() / 2;

@@ -28,6 +28,8 @@ public:
 
     SolveOutcome solve(VectorXd& x, double tolerance, double T0, const std::string& phase) override;
 
+    bool response(const VectorXd& x, const VectorXd& g, VectorXd& y) override;   // by the factor at hand
+
     int iterations() const override { return iterations_; }
     int factorizations() const override {
         return solver_->cost().factorizations + (lu_ ? lu_->cost().factorizations : 0);

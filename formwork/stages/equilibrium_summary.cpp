@@ -11,6 +11,8 @@ JsonValue equilibrium_summary(const EquilibriumResult& r) {
     v.set("rounding_floor", r.rounding_floor);
     v.set("iterations", r.iterations);
     v.set("factorizations", r.factorizations);
+    v.set("coarse_iterations", r.coarse_iterations);
+    v.set("coarse_factorizations", r.coarse_factorizations);
     v.set("vertices", r.vertices);
     v.set("faces", r.faces);
     v.set("free_dofs", r.free_dofs);
@@ -36,6 +38,8 @@ JsonValue equilibrium_summary(const EquilibriumResult& r) {
     regularisation.set("residual_stiffness", r.regularisation.residual);
     regularisation.set("depth_effect", r.regularisation.depth_effect);
     regularisation.set("volume_effect", r.regularisation.volume_effect);
+    regularisation.set("depth_extrapolated_m", r.regularisation.depth_extrapolated_m);
+    regularisation.set("volume_extrapolated_m3", r.regularisation.volume_extrapolated_m3);
     v.set("regularisation", std::move(regularisation));
     JsonValue history = JsonValue::array();
     for (const IterationReport& step : r.history) history.add(step.residual);

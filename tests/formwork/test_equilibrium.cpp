@@ -70,6 +70,61 @@ TEST_CASE("a wrinkled bag ends in one shape from every start, and says what the 
     REQUIRE(largest_difference(flat, find_equilibrium(p)) < 1e-9);
 }
 
+TEST_CASE("where nothing wrinkles the tension field's answer is that of the full law") {
+    EquilibriumProblem p = filled(shapes::disk(0.15, 12), 0);
+    p.solver.tolerance = 1e-11;
+    const EquilibriumResult relaxed = find_equilibrium(p);
+    p.material.compression = Compression::full;
+    const EquilibriumResult full = find_equilibrium(p);
+    REQUIRE(relaxed.wrinkled_faces == 0);
+    REQUIRE(largest_difference(relaxed, full) < 1e-10);
+}
+
+TEST_CASE("a start on coarser meshes changes the way, not the shape") {
+    for (const bool by_volume : {false, true}) {
+        EquilibriumProblem p = filled(shapes::disk(0.15, 33), 0);   // 3 367 nodes, taut
+        if (by_volume) {
+            p.plaster.fill->level.reset();
+            p.plaster.fill->volume = 0.003;
+        }
+        p.solver.tolerance = 1e-10;
+        const EquilibriumResult nested = find_equilibrium(p);
+        p.solver.nested = false;
+        const EquilibriumResult direct = find_equilibrium(p);
+        INFO("by volume " << by_volume);
+        REQUIRE(nested.coarse_iterations > 0);
+        REQUIRE(nested.wrinkled_faces == 0);
+        REQUIRE(nested.iterations < direct.iterations);
+        REQUIRE(largest_difference(nested, direct) < 1e-8);
+    }
+}
+
+TEST_CASE("a wrinkled bag that starts on coarser meshes ends in the same shape") {
+    EquilibriumProblem p = filled(shapes::square(0.3, 56), 0.05);   // 3 249 nodes
+    p.solver.tolerance = 1e-10;
+    const EquilibriumResult nested = find_equilibrium(p);
+    REQUIRE(nested.coarse_iterations > 0);
+    REQUIRE(nested.wrinkled_faces > 0);
+    REQUIRE(nested.regularisation.depth_effect < 1e-3);
+    p.material.prestress = nested.regularisation.prestress;
+    p.material.residual = nested.regularisation.residual;
+    for (const bool shallow : {false, true}) {
+        p.start = p.rest.x;
+        if (shallow) shapes::jiggle(p.start, p.fixed, 1e-3, 3);
+        REQUIRE(largest_difference(nested, find_equilibrium(p)) < 1e-9);
+    }
+}
+
+TEST_CASE("a free rim under the liquid is told, and what the fabric keeps of its compression with it") {
+    EquilibriumProblem p = filled(shapes::sock(0.05, 0.1, 4), 0.01);
+    for (std::size_t i = 0; i < p.rest.x.size(); ++i)
+        for (int c = 0; c < 3; ++c) p.fixed[3 * i + c] = p.rest.x[i][2] < -0.09;
+    const EquilibriumResult r = find_equilibrium(p);
+    REQUIRE(r.converged);
+    REQUIRE(r.residual <= p.solver.tolerance);
+    if (r.regularisation.residual > 1e-2) REQUIRE_FALSE(r.warnings.empty());
+}
+
 TEST_CASE("solutions depend on rho g a² / k alone") {
     const EquilibriumResult small = find_equilibrium(filled(shapes::disk(0.1, 8), 0));
     EquilibriumProblem p = filled(shapes::disk(0.2, 8), 0);

@@ -161,6 +161,35 @@ TEST_CASE("the fabric's own strain is the face's plus a wrinkle, and carries the
         }
 }
 
+TEST_CASE("the exact gradient of (5) has two stable stretches under one load: why it is not offered") {
+    // Uniaxial, table 2 as `isotropic`: W = k(lambda) eps² / 2, nominal tension N = dW/dlambda; k_uv = 2 hardly counts.
+    const auto k = [](double l) { return 300 + 300 * std::min(1.0, (l - 1) * 6); };
+    const auto tension = [&](double l, double slope) {
+        const double eps = 0.5 * (l * l - 1);
+        return k(l) * eps * l + 0.5 * slope * eps * eps;
+    };
+    const double end = 7. / 6, before = tension(end, 1800), after = tension(end, 0);
+    REQUIRE(after / before == Approx(1 - 0.188).margin(1e-3));                       // the stress drops where the table ends
+    REQUIRE(tension(1.158, 1800) == Approx(tension(1.182, 0)).epsilon(1e-2));       // one load, two stretches
+    const double h = 1e-6;                                                          // both stable: tension rises with stretch
+    REQUIRE(tension(1.158 + h, 1800) > tension(1.158, 1800));
+    REQUIRE(tension(1.182 + h, 0) > tension(1.182, 0));
+    // The two laws that are offered rise through the table's end.
+    for (const IsotropicLaw law : {IsotropicLaw::secant, IsotropicLaw::separable}) {
+        MaterialParams p;
+        p.rest = {300, 2, 300, 298};
+        p.max = {600, 2, 600, 598};
+        p.law = law;
+        const auto offered = make_membrane_law(p);
+        double last = 0;
+        for (double l = 1.001; l < 1.3; l += 1e-3) {
+            const Vector3d S = evaluate_one(*offered, {0.5 * (l * l - 1), 0, 0}, Want::stress).S;
+            REQUIRE(l * S[0] > last);
+            last = l * S[0];
+        }
+    }
+}
+
 TEST_CASE("homogeneous patches carry the exact forces, on any triangles (B1)") {
     // Forces per rest width of a stretched square, by the law alone: x = F u on every face.
     for (const auto& c : reference::data().at("b1").at("stretch")) {
