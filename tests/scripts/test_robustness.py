@@ -11,10 +11,10 @@ import tempfile
 import time
 from pathlib import Path
 
-program = Path(sys.argv[1]).resolve() / "formwork"
 failures = []
 work = Path(tempfile.mkdtemp())
-work.chmod(0o755)   # another user runs the program in the read-only case
+work.chmod(0o755)   # another user runs the program in the read-only case, and may not enter where it was built
+program = Path(shutil.copy(Path(sys.argv[1]) / "formwork", work / "formwork"))
 environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
 
 
@@ -131,7 +131,7 @@ shutil.copytree(reference, out)
 before = snapshot(out)
 as_nobody = {}
 if os.geteuid() == 0:
-    as_nobody = {"user": 65534}   # root writes everywhere
+    as_nobody = {"user": 65534, "cwd": work}   # root writes everywhere
 for folder in (out, *[p for p in out.rglob("*") if p.is_dir()]):
     folder.chmod(0o555)
 run = formwork("run", scene, "-o", out, **as_nobody)
