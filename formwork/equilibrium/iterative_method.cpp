@@ -14,7 +14,7 @@ constexpr int floor_patience = 5;           // reports without gain before round
 }  // namespace
 
 IterativeMethod::IterativeMethod(StaticSystem& system, const EquilibriumProblem& problem, int limit, int every)
-    : system_(system), params_(problem.solver), on_iteration_(problem.on_iteration), limit_(limit), every_(every) {
+    : system_(system), params_(problem.solver), log_(system, problem.on_iteration), limit_(limit), every_(every) {
     times_.ordering = system.ordering_s();
 }
 
@@ -48,14 +48,8 @@ bool IterativeMethod::response(const VectorXd& x, const VectorXd& g, VectorXd& y
 
 /// Noise of the residual: what a change of every coordinate by half a unit in its last place does to the forces.
 double IterativeMethod::rounding_floor(const VectorXd& x, double load) {
-    constexpr double half_ulp = std::numeric_limits<double>::epsilon() / 2;
     constexpr double magnified = 1e3;   // so that the difference is not itself rounding
-    noisy_ = x;
-    unsigned state = 12345;
-    for (Eigen::Index i = 0; i < x.size(); ++i) {
-        state = 1664525u * state + 1013904223u;
-        if (!system_.fixed()[static_cast<int>(i)]) noisy_[i] += magnified * half_ulp * x[i] * (2.0 * state / 4294967295.0 - 1);
-    }
+    noisy_ = x + magnified * rounding_noise(system_, x);
     system_.gradient(noisy_, g1_);
     system_.gradient(x, g0_);
     g1_ -= g0_;
@@ -72,21 +66,12 @@ bool IterativeMethod::is_over(const VectorXd& x, const StaticSystem::Balance& no
     if (out.residual < 0.9 * best_) best_ = out.residual, best_at_ = iterations_;
     if (iterations_ % every_ != 0 && finite && !converged && !exhausted) return false;
 
-    IterationReport r;
-    r.iteration = iterations_;
-    r.residual = out.residual;
-    r.factorizations = factorizations();
-    r.step = step;
-    r.max_stretch = system_.membrane().stretch_range(x)[0];
-    r.phase = phase;
-    history_.push_back(r);
-    if (on_iteration_) on_iteration_(r);
-
+    const double stretch = log_.add({iterations_, out.residual, factorizations(), step, 0, phase}, x);
     if (converged) {
         out.status = SolveStatus::converged;
         return true;
     }
-    if (!finite || !(r.max_stretch <= runaway_stretch)) {
+    if (!finite || !(stretch <= runaway_stretch)) {
         out.status = SolveStatus::runaway;
         return true;
     }

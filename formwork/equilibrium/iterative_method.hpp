@@ -1,5 +1,6 @@
 #pragma once
 
+#include "formwork/equilibrium/iteration_log.hpp"
 #include "formwork/equilibrium/method.hpp"
 
 namespace formwork {
@@ -11,7 +12,7 @@ public:
     bool response(const VectorXd& x, const VectorXd& g, VectorXd& y) override;
 
     int iterations() const override { return iterations_; }
-    const std::vector<IterationReport>& history() const override { return history_; }
+    const std::vector<IterationReport>& history() const override { return log_.reports(); }
     const SolverTimes& times() const override { return times_; }
     void allow_iterations(int) override { first_ = iterations_; }
 
@@ -41,8 +42,7 @@ protected:
 private:
     double rounding_floor(const VectorXd& x, double load);
 
-    std::function<void(const IterationReport&)> on_iteration_;
-    std::vector<IterationReport> history_;
+    IterationLog log_;
     VectorXd noisy_, g0_, g1_;
     int limit_, every_, first_ = 0, best_at_ = 0;
     double best_ = 0;

@@ -41,7 +41,7 @@ struct Stopwatch {
 
 NewtonSolver::NewtonSolver(StaticSystem& system, const SolverParams& params,
                            std::function<void(const IterationReport&)> on_iteration)
-    : system_(system), params_(params), on_iteration_(std::move(on_iteration)),
+    : system_(system), params_(params), log_(system, std::move(on_iteration)),
       solver_(arcsim::make_linear_solver(kind_of(params.linear_solver))), 
       H_(system.pattern(), system.membrane().law().is_strongly_unsymmetric() ? BlockMatrix::Kind::general
                                                                              : BlockMatrix::Kind::symmetric),
@@ -126,29 +126,11 @@ bool NewtonSolver::response(const VectorXd& x, const VectorXd& g, VectorXd& y) {
 
 /// Noise of the residual: what a change of every coordinate by half a unit in its last place does to the forces.
 double NewtonSolver::rounding_floor(const VectorXd& x, double load) {
-    constexpr double half_ulp = std::numeric_limits<double>::epsilon() / 2;
-    VectorXd noise(x.size()), force;
-    unsigned state = 12345;
-    for (Eigen::Index i = 0; i < x.size(); ++i) {
-        state = 1664525u * state + 1013904223u;
-        noise[i] = half_ulp * x[i] * (2.0 * state / 4294967295.0 - 1);
-    }
-    system_.fixed().clear(noise);
+    const VectorXd noise = rounding_noise(system_, x);
+    VectorXd force;
     H_.multiply_symmetric(noise, force);
     system_.fixed().clear(force);
     return force.norm() / load;
-}
-
-void NewtonSolver::report(const std::string& phase, double residual, double step, const VectorXd& x) {
-    IterationReport r;
-    r.iteration = iterations_;
-    r.residual = residual;
-    r.factorizations = factorizations();
-    r.step = step;
-    r.max_stretch = system_.membrane().stretch_range(x)[0];
-    r.phase = phase;
-    history_.push_back(r);
-    if (on_iteration_) on_iteration_(r);
 }
 
 SolveOutcome NewtonSolver::solve(VectorXd& x, double tolerance, double T0, const std::string& phase) {
@@ -165,7 +147,7 @@ SolveOutcome NewtonSolver::solve(VectorXd& x, double tolerance, double T0, const
     double best = std::numeric_limits<double>::infinity();
     for (;; ++iterations_) {
         out.residual = system_.relative(now);
-        report(phase, out.residual, step, x);
+        const double stretch = log_.add({iterations_, out.residual, factorizations(), step, 0, phase}, x);
         if (!std::isfinite(out.residual)) {
             out.status = SolveStatus::runaway;
             return out;
@@ -174,7 +156,7 @@ SolveOutcome NewtonSolver::solve(VectorXd& x, double tolerance, double T0, const
             out.status = SolveStatus::converged;
             return out;
         }
-        if (history_.back().max_stretch > runaway_stretch) {
+        if (stretch > runaway_stretch) {
             out.status = SolveStatus::runaway;
             return out;
         }

@@ -6,6 +6,7 @@
 
 #include "arcsim/solve/linear_solver.hpp"
 #include "arcsim/solve/pcg.hpp"
+#include "formwork/equilibrium/iteration_log.hpp"
 #include "formwork/equilibrium/method.hpp"
 
 namespace formwork {
@@ -34,7 +35,7 @@ public:
     int factorizations() const override {
         return solver_->cost().factorizations + (lu_ ? lu_->cost().factorizations : 0);
     }
-    const std::vector<IterationReport>& history() const override { return history_; }
+    const std::vector<IterationReport>& history() const override { return log_.reports(); }
     const SolverTimes& times() const override { return times_; }
     const arcsim::LinearSolver& linear_solver() const { return *solver_; }
     void allow_iterations(int more) override { limit_ = iterations_ + more; }
@@ -44,11 +45,10 @@ private:
     bool direction_by_lu(double& T0, bool any_direction);
     bool factorize_regularised(double& T0);
     double rounding_floor(const VectorXd& x, double load);
-    void report(const std::string& phase, double residual, double step, const VectorXd& x);
 
     StaticSystem& system_;
     SolverParams params_;
-    std::function<void(const IterationReport&)> on_iteration_;
+    IterationLog log_;
     std::unique_ptr<arcsim::LinearSolver> solver_, lu_;   // lu_: for strongly unsymmetric laws
     arcsim::FactorPcg pcg_;
     BlockMatrix H_;
@@ -57,7 +57,6 @@ private:
     int iterations_ = 0, limit_;
     double T_ref_;
     SolverTimes times_;
-    std::vector<IterationReport> history_;
 };
 
 }  // namespace formwork

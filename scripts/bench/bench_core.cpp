@@ -94,8 +94,9 @@ double peak_memory_bytes() {
 }
 
 void measure(int n, int steps, FillOrder order, SolverKind solver, double peak) {
-    char name[] = "/tmp/bench_core_XXXXXX";
-    const std::filesystem::path folder = mkdtemp(name);
+    std::string name = (std::filesystem::temp_directory_path() / "bench_core_XXXXXX").string();
+    if (!mkdtemp(name.data())) throw std::runtime_error(name + ": cannot make this folder. Set TMPDIR to one that can be written.");
+    const std::filesystem::path folder = name;
     SceneParams scene = hanging_sheet(n, folder);
     scene.solver.linear_solver = solver;
     const std::vector<Motion> no_motions;

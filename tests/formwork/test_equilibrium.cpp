@@ -1,33 +1,11 @@
 #include <catch2/catch.hpp>
 
-#include "formwork/equilibrium/equilibrium.hpp"
-#include "shapes.hpp"
+#include "filled_bag.hpp"
 
 using namespace formwork;
 
-namespace {
-
-EquilibriumProblem filled(const shapes::Bag& bag, double level) {
-    EquilibriumProblem p;
-    p.rest = bag.surface;
-    p.fixed = bag.held;
-    p.plaster.density = 1500;
-    p.plaster.fill = FillParams{};
-    p.plaster.fill->level = level;
-    p.self_weight = false;
-    return p;
-}
-
-double largest_difference(const EquilibriumResult& a, const EquilibriumResult& b) {
-    double d = 0;
-    for (std::size_t i = 0; i < a.x.size(); ++i) d = std::max(d, (a.x[i] - b.x[i]).norm());
-    return d;
-}
-
-}  // namespace
-
 TEST_CASE("a flat disk filled to its rim sags, carries the liquid's weight and stays taut") {
-    EquilibriumProblem p = filled(shapes::disk(0.15, 10), 0);
+    EquilibriumProblem p = filled_bag(shapes::disk(0.15, 10), 0);
     p.fabric_density = 0.2;
     p.self_weight = true;
     const EquilibriumResult r = find_equilibrium(p);
@@ -44,7 +22,7 @@ TEST_CASE("a flat disk filled to its rim sags, carries the liquid's weight and s
 
 TEST_CASE("a prescribed volume is met together with the shape, from below, at and above the rim's level") {
     for (const double level : {-0.05, 0.0, 0.03}) {
-        EquilibriumProblem p = filled(shapes::sock(0.1, 0.15, 6), level);
+        EquilibriumProblem p = filled_bag(shapes::sock(0.1, 0.15, 6), level);
         const EquilibriumResult by_level = find_equilibrium(p);
         p.plaster.fill->level.reset();
         p.plaster.fill->volume = by_level.volume_m3;
@@ -57,7 +35,7 @@ TEST_CASE("a prescribed volume is met together with the shape, from below, at an
 }
 
 TEST_CASE("a wrinkled bag ends in one shape from every start, and says what the regularisation did") {
-    EquilibriumProblem p = filled(shapes::square(0.3, 24), 0.05);
+    EquilibriumProblem p = filled_bag(shapes::square(0.3, 24), 0.05);
     const EquilibriumResult flat = find_equilibrium(p);
     REQUIRE(flat.wrinkled_faces > 0);
     REQUIRE(flat.regularisation.depth_effect < 1e-3);
@@ -71,7 +49,7 @@ TEST_CASE("a wrinkled bag ends in one shape from every start, and says what the 
 }
 
 TEST_CASE("where nothing wrinkles the tension field's answer is that of the full law") {
-    EquilibriumProblem p = filled(shapes::disk(0.15, 12), 0);
+    EquilibriumProblem p = filled_bag(shapes::disk(0.15, 12), 0);
     p.solver.tolerance = 1e-11;
     const EquilibriumResult relaxed = find_equilibrium(p);
     p.material.compression = Compression::full;
@@ -82,7 +60,7 @@ TEST_CASE("where nothing wrinkles the tension field's answer is that of the full
 
 TEST_CASE("a start on coarser meshes changes the way, not the shape") {
     for (const bool by_volume : {false, true}) {
-        EquilibriumProblem p = filled(shapes::disk(0.15, 33), 0);   // 3 367 nodes, taut
+        EquilibriumProblem p = filled_bag(shapes::disk(0.15, 33), 0);   // 3 367 nodes, taut
         if (by_volume) {
             p.plaster.fill->level.reset();
             p.plaster.fill->volume = 0.003;
@@ -100,7 +78,7 @@ TEST_CASE("a start on coarser meshes changes the way, not the shape") {
 }
 
 TEST_CASE("a wrinkled bag that starts on coarser meshes ends in the same shape") {
-    EquilibriumProblem p = filled(shapes::square(0.3, 56), 0.05);   // 3 249 nodes
+    EquilibriumProblem p = filled_bag(shapes::square(0.3, 56), 0.05);   // 3 249 nodes
     p.solver.tolerance = 1e-10;
     const EquilibriumResult nested = find_equilibrium(p);
     REQUIRE(nested.coarse_iterations > 0);
@@ -116,7 +94,7 @@ TEST_CASE("a wrinkled bag that starts on coarser meshes ends in the same shape")
 }
 
 TEST_CASE("a free rim under the liquid is told, and what the fabric keeps of its compression with it") {
-    EquilibriumProblem p = filled(shapes::sock(0.05, 0.1, 4), 0.01);
+    EquilibriumProblem p = filled_bag(shapes::sock(0.05, 0.1, 4), 0.01);
     for (std::size_t i = 0; i < p.rest.x.size(); ++i)
         for (int c = 0; c < 3; ++c) p.fixed[3 * i + c] = p.rest.x[i][2] < -0.09;
     const EquilibriumResult r = find_equilibrium(p);
@@ -126,15 +104,15 @@ TEST_CASE("a free rim under the liquid is told, and what the fabric keeps of its
 }
 
 TEST_CASE("solutions depend on rho g a² / k alone") {
-    const EquilibriumResult small = find_equilibrium(filled(shapes::disk(0.1, 8), 0));
-    EquilibriumProblem p = filled(shapes::disk(0.2, 8), 0);
+    const EquilibriumResult small = find_equilibrium(filled_bag(shapes::disk(0.1, 8), 0));
+    EquilibriumProblem p = filled_bag(shapes::disk(0.2, 8), 0);
     p.plaster.density = 1500. / 4;
     const EquilibriumResult large = find_equilibrium(p);
     REQUIRE(large.depth_m == Approx(2 * small.depth_m).epsilon(1e-8));
 }
 
 TEST_CASE("an equilibrium that does not exist is never returned") {
-    EquilibriumProblem p = filled(shapes::disk(0.15, 6), 0);
+    EquilibriumProblem p = filled_bag(shapes::disk(0.15, 6), 0);
     SECTION("free to move") {
         p.fixed.assign(p.fixed.size(), 0);
         REQUIRE_THROWS_WITH(find_equilibrium(p), Catch::Contains("free to move"));
@@ -144,7 +122,7 @@ TEST_CASE("an equilibrium that does not exist is never returned") {
         REQUIRE_THROWS_WITH(find_equilibrium(p), Catch::Contains("millimetres"));
     }
     SECTION("ballooning") {
-        p = filled(shapes::disk(0.45, 6), 0);
+        p = filled_bag(shapes::disk(0.45, 6), 0);
         p.material.max = p.material.rest;
         try {
             find_equilibrium(p);
