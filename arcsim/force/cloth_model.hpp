@@ -6,6 +6,7 @@
 #include "arcsim/force/bend_force.hpp"
 #include "arcsim/force/gravity_force.hpp"
 #include "arcsim/force/spring_force.hpp"
+#include "arcsim/force/strain_limit_force.hpp"
 #include "arcsim/force/stretch_force.hpp"
 #include "arcsim/force/wind_force.hpp"
 
@@ -26,6 +27,7 @@ struct ClothModel {
     std::unique_ptr<BendForce> bend;
     std::unique_ptr<GravityForce> gravity;
     std::unique_ptr<WindForce> wind;
+    std::unique_ptr<StrainLimitForce> limits;   // null: the scene names none
     SpringForce springs;
     std::vector<HeldNode> held;
 

@@ -21,6 +21,10 @@ struct Shape {            // a_i and b_i of corners 1 and 2; corner 0 has minus 
     T a1, a2, b1, b2;
 };
 
+inline Shape<double> shape_of(const Matrix2d& D_inverse) {
+    return {D_inverse(0, 0), D_inverse(1, 0), D_inverse(0, 1), D_inverse(1, 1)};
+}
+
 template <class T>
 struct Strain {
     T xu[3], xv[3];

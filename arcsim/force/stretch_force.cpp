@@ -11,9 +11,7 @@ namespace {
 /// The three coupled corner pairs of a face, in the order of BlockPattern::face_slots.
 constexpr int pair_corner[3][2] = {{0, 1}, {1, 2}, {2, 0}};
 
-stretch::Shape<double> shape_of(const StretchFace& f) {
-    return {f.D_inverse(0, 0), f.D_inverse(1, 0), f.D_inverse(0, 1), f.D_inverse(1, 1)};
-}
+}  // namespace
 
 stretch::Strain<double> strain_of(const StretchFace& f, const VectorXd& x) {
     double e1[3], e2[3];
@@ -22,10 +20,8 @@ stretch::Strain<double> strain_of(const StretchFace& f, const VectorXd& x) {
         e1[c] = x[3 * f.node[1] + c] - x0;
         e2[c] = x[3 * f.node[2] + c] - x0;
     }
-    return stretch::strain(shape_of(f), e1, e2);
+    return stretch::strain(stretch::shape_of(f.D_inverse), e1, e2);
 }
-
-}  // namespace
 
 struct StretchForce::Group {
     stretch::Shape<Lanes> shape{};
@@ -68,7 +64,7 @@ void StretchForce::make_groups(const std::vector<int>& order, const BlockPattern
         Group& g = (*groups_)[n / n_lanes];
         const int lane = static_cast<int>(n % n_lanes);
         g.count = lane + 1;
-        const auto s = shape_of(f);
+        const auto s = stretch::shape_of(f.D_inverse);
         g.shape.a1[lane] = s.a1;
         g.shape.a2[lane] = s.a2;
         g.shape.b1[lane] = s.b1;
@@ -200,7 +196,7 @@ void StretchForce::add_exact_hessian(const State& s, BlockMatrix& H) const {
         const Vector3d strain_vector(G.uu, G.vv, G.uv);
         const StiffnessSample sample = tables_[f.material]->sample(strain_vector);
         const double k[4] = {sample.k[0], sample.k[1], sample.k[2], sample.k[3]};
-        const Matrix9d B = stretch::exact_hessian(shape_of(f), G, stretch::stress(G, k),
+        const Matrix9d B = stretch::exact_hessian(stretch::shape_of(f.D_inverse), G, stretch::stress(G, k),
                                                   stretch::stress_derivative(strain_vector, sample),
                                                   f.area / f.softening);
         for (int i = 0; i < 3; ++i) {
@@ -228,6 +224,15 @@ double StretchForce::frozen_energy(const State& s) const {
 Vector3d StretchForce::strain(const VectorXd& x, int f) const {
     const auto g = strain_of(faces_[f], x);
     return {g.uu, g.vv, g.uv};
+}
+
+double StretchForce::rest_stiffness() const {
+    double k = 0;
+    for (const auto& table : tables_) {
+        const Stiffness4 rest = table->k(Vector3d::Zero());
+        k = std::max(k, *std::max_element(rest.begin(), rest.end()));
+    }
+    return k;
 }
 
 std::pair<int, double> StretchForce::largest_stretch(const VectorXd& x) const {

@@ -18,6 +18,9 @@ struct StretchFace {
     int material = 0;         // index into the tables
 };
 
+/// Of a face at positions x, 3n.
+stretch::Strain<double> strain_of(const StretchFace& f, const VectorXd& x);
+
 /// The membrane of ArcSim's cloth: the secant law S = K(G) G of stretch_element.hpp with measured tables.
 ///
 /// No potential: k depends on G. @drops definite: see stretch::Coefficients; without negative eigenvalue as
@@ -35,6 +38,7 @@ public:
     void add_step(const State& s, double h, VectorXd& f, BlockMatrix& A) const override;
     void add_damping(const State& s, BlockMatrix& H) const override;
     bool is_damped() const;
+    const std::vector<StretchFace>& faces() const { return faces_; }
     bool is_unsymmetric() const override { return true; }
     void bind(const BlockPattern& pattern) override;
 
@@ -42,6 +46,8 @@ public:
     Vector3d strain(const VectorXd& x, int f) const;
     /// Face with the largest principal stretch, and that stretch; the first face that is not finite, if any.
     std::pair<int, double> largest_stretch(const VectorXd& x) const;
+    /// Largest entry of the tables at rest, N/m.
+    double rest_stiffness() const;
 
 private:
     struct Group;                       // eight faces, component by component

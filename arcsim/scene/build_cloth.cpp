@@ -75,6 +75,15 @@ std::vector<StretchFace> stretch_faces(const ClothMesh& mesh, const ClothParams&
     return faces;
 }
 
+/// Null when no material has limits.
+std::unique_ptr<StrainLimitForce> strain_limits(const std::vector<StretchFace>& faces, const ClothParams& cloth) {
+    std::vector<LimitedFace> limited;
+    for (size_t f = 0; f < faces.size(); ++f)
+        if (const auto& limits = cloth.materials[faces[f].material].strain_limits)
+            limited.push_back({static_cast<int>(f), faces[f], (*limits)[0], (*limits)[1]});
+    return limited.empty() ? nullptr : std::make_unique<StrainLimitForce>(std::move(limited));
+}
+
 /// The vert of `face` at `node`.
 int vert_at(const ClothMesh& mesh, int face, int node) {
     for (int k = 0; k < 3; ++k)
@@ -162,6 +171,7 @@ ClothModel build_model(const ClothMesh& mesh, const ClothParams& cloth, const Sc
     model.gravity = std::make_unique<GravityForce>(model.mass, scene.gravity);
     for (double& mass : model.mass)
         if (mass == 0) mass = 1;   // nodes without faces: nothing acts on them, any mass keeps the matrix regular
+    if (!scene.disables("strainlimiting")) model.limits = strain_limits(faces, cloth);
     model.stretch = std::make_unique<StretchForce>(std::move(faces), std::move(tables));
     std::vector<Hinge> folds = hinges(mesh, cloth, bending);
     model.bend = std::make_unique<BendForce>(std::move(folds), std::move(bending), x);

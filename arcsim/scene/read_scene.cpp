@@ -75,10 +75,6 @@ void check_modelled(const SceneParams& scene, const std::string& source, Unsuppo
         if (cloth.has_remeshing && !is_empty(cloth.remeshing) && !scene.disables("remeshing"))
             judge.refuse(pointer + "/remeshing", "remeshing", "Add \"remeshing\" to /disable or remove the key.");
         for (size_t m = 0; m < cloth.materials.size(); ++m)
-            if (cloth.materials[m].strain_limits && !scene.disables("strainlimiting"))
-                judge.refuse(pointer + "/materials/" + std::to_string(m) + "/strain_limits", "strain limiting",
-                             "Add \"strainlimiting\" to /disable or remove the key.");
-        for (size_t m = 0; m < cloth.materials.size(); ++m)
             if (cloth.materials[m].yield_curv < infinity && !scene.disables("plasticity"))
                 judge.refuse(pointer + "/materials/" + std::to_string(m) + "/yield_curv", "plasticity",
                              "Add \"plasticity\" to /disable or remove the key.");

@@ -19,8 +19,7 @@ struct Scene {
 ///         `unsupported` is warn
 Scene read_scene(const std::filesystem::path& file, Unsupported unsupported = Unsupported::error);
 
-/// Refuses what the scene needs and nobody here does: contact with obstacles, remeshing, strain limiting,
-/// plasticity, morphs.
+/// Refuses what the scene needs and nobody here does: contact with obstacles, remeshing, plasticity, morphs.
 /// Self-contact is only warned about: whether a scene needs it cannot be known.
 void check_modelled(const SceneParams& scene, const std::string& source, Unsupported unsupported, Warnings& warnings);
 

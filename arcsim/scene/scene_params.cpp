@@ -35,7 +35,10 @@ void visit(Archive& a, ClothMaterialParams& p) {
     a.optional("bending_mult", p.bending_mult, "", non_negative, "Multiplies the bending stiffness.");
     a.optional("thicken", p.thicken, "", positive, "Multiplies all three.");
     a.optional("damping", p.damping, "s", non_negative, "Stiffness-proportional damping beta.");
-    a.optional("strain_limits", p.strain_limits, "", any_number, "Smallest and largest principal stretch.");
+    a.optional("strain_limits", p.strain_limits, "", any_number, "Smallest and largest principal stretch; 1: as at rest.");
+    a.check(!p.strain_limits || (*p.strain_limits)[0] < (*p.strain_limits)[1], "strain_limits",
+            "the first number, the smallest stretch, must be less than the second, the largest.");
+    a.check(!p.strain_limits || (*p.strain_limits)[1] > 0, "strain_limits", "the largest stretch must be > 0.");
     a.optional("yield_curv", p.yield_curv, "1/m", non_negative, "Curvature at which folds stay; not modelled.");
     a.optional("weakening", p.weakening, "", non_negative, "Stiffness is divided by 1 + weakening * damage.");
     a.choice("sampling", p.sampling, sampling_names, "How the table of stiffness is evaluated.");

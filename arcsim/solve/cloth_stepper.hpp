@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "arcsim/solve/cloth_system.hpp"
+#include "arcsim/solve/limit_projection.hpp"
 #include "arcsim/solve/step_params.hpp"
 
 namespace arcsim {
@@ -23,10 +24,10 @@ public:
     /// @throws NumericalError: the numbers refused; s is as it was
     virtual StepResult step(State& s, double h) = 0;
     /// Forgets earlier steps: the next one stands alone.
-    virtual void restart() {}
-    /// What the method remembers beside the State, for files; empty: nothing.
-    virtual std::vector<double> memory() const { return {}; }
-    virtual void set_memory(const std::vector<double>&) {}
+    virtual void restart();
+    /// What is remembered beside the State, for files: the strain limits' multipliers, then the method's own.
+    std::vector<double> memory() const;
+    void set_memory(const std::vector<double>& memory);
     /// Puts the handles where they are at a time, for methods that divide a step.
     std::function<void(double time)> place_handles = [](double) {};
     const StepCost& cost() const { return cost_; }
@@ -35,6 +36,8 @@ public:
 protected:
     ClothStepper(ClothModel& model, const StepParams& params, FillOrder order)
         : params_(params), system_(model, order, params.linear_solver) {}
+    virtual std::vector<double> own_memory() const { return {}; }
+    virtual void set_own_memory(const std::vector<double>&) {}
     /// Throws when a position is not finite or a face is beyond the limit; names the face.
     void check_state(const VectorXd& x, double max_stretch);
 
@@ -54,12 +57,15 @@ std::unique_ptr<ClothStepper> make_stepper(ClothModel& model, const StepParams& 
 class LinearizedEuler final : public ClothStepper {
 public:
     LinearizedEuler(ClothModel& model, const StepParams& params, FillOrder order)
-        : ClothStepper(model, params, order) {}
+        : ClothStepper(model, params, order) {
+        if (model.limits) projection_ = std::make_unique<LimitProjection>(system_);
+    }
     StepResult step(State& s, double h) override;
 
 private:
-    VectorXd f_, b_, v_;
+    VectorXd f_, b_, v_, x_;
     std::vector<Vector3d> held_velocity_;
+    std::unique_ptr<LimitProjection> projection_;   // made when the model has limits
 };
 
 }  // namespace arcsim

@@ -11,7 +11,7 @@ namespace arcsim {
 
 /// Where the CPU time of the steps went, seconds, summed over a stepper's life.
 struct StepCost {
-    double assembly = 0, factor = 0, solve = 0, rest = 0;
+    double assembly = 0, factor = 0, solve = 0, limits = 0, rest = 0;
     int steps = 0, factorizations = 0;
 };
 
@@ -25,6 +25,7 @@ public:
     const BlockPattern& pattern() const { return *pattern_; }
     LinearSolver& solver() { return *solver_; }
     ClothModel& model() { return model_; }
+    const ClothModel& model() const { return model_; }
 
     /// A += M.
     void add_mass(BlockMatrix& A) const;

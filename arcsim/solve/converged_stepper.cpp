@@ -4,6 +4,7 @@
 
 #include "arcsim/base/error.hpp"
 #include "arcsim/base/text.hpp"
+#include "arcsim/solve/limit_rounds.hpp"
 
 namespace arcsim {
 namespace {
@@ -50,6 +51,7 @@ StepResult ConvergedStepper::step(State& s, double h) {
                 throw NumericalError(std::string(e.what()) + ", also with the step halved " +
                                      std::to_string(level) + " times");
             }
+            ClothStepper::restart();                             // multipliers of a failed solve lead astray
             ++level;
             at *= 2;
             result.halvings = std::max(result.halvings, level);
@@ -86,6 +88,7 @@ double ConvergedStepper::residual(const Problem& p, const VectorXd& v, VectorXd&
     g_.setZero(v.size());
     model.stretch->add_gradient(trial_, g_);
     model.bend->add_gradient(trial_, g_);
+    if (model.limits) model.limits->add_gradient(trial_, g_);
     double scale = g_.cwiseAbs().maxCoeff();
     model.gravity->add_gradient(trial_, g_);
     model.wind->add_gradient(trial_, g_);
@@ -123,6 +126,7 @@ bool ConvergedStepper::factorize(const Problem& p, const VectorXd& v, Direction 
     model.stretch->add_hessian(trial_, tangent, A);
     model.bend->add_hessian(trial_, tangent, A);
     model.springs.add_hessian(trial_, tangent, A);
+    if (model.limits) model.limits->add_hessian(trial_, tangent, A);
     A.scale(p.h * p.h);
     if (viscous_) {
         viscous_->set_zero();
@@ -205,8 +209,19 @@ bool ConvergedStepper::try_direction(const Problem& p, Direction direction, Iter
 }
 
 VectorXd ConvergedStepper::solve(const Problem& p, const State& start, StepResult& result) {
+    ClothModel& model = system_.model();
+    if (!model.limits) return balance(p, start.v, result);
+    LimitRounds rounds(model, p.h);
+    VectorXd v = start.v;
+    do {
+        v = balance(p, std::move(v), result);
+    } while (!rounds.are_done(p.x + p.h * v));
+    return v;
+}
+
+VectorXd ConvergedStepper::balance(const Problem& p, VectorXd v, StepResult& result) {
     Iterate now;
-    now.v = start.v;
+    now.v = std::move(v);
     for (const HeldNode& n : system_.model().held)
         now.v.segment<3>(3 * n.node) = (n.target - p.x.segment<3>(3 * n.node)) / p.h;
     now.scale = residual(p, now.v, now.r);
@@ -229,7 +244,12 @@ VectorXd ConvergedStepper::solve(const Problem& p, const State& start, StepResul
              format_short(result.residual), p.x + p.h * now.v);
 }
 
-std::vector<double> ConvergedStepper::memory() const {
+void ConvergedStepper::restart() {
+    ClothStepper::restart();
+    previous_h_ = 0;
+}
+
+std::vector<double> ConvergedStepper::own_memory() const {
     if (params_.method != StepMethod::bdf2 || previous_h_ == 0) return {};
     std::vector<double> m{previous_h_};
     m.insert(m.end(), previous_x_.begin(), previous_x_.end());
@@ -237,8 +257,8 @@ std::vector<double> ConvergedStepper::memory() const {
     return m;
 }
 
-void ConvergedStepper::set_memory(const std::vector<double>& m) {
-    restart();
+void ConvergedStepper::set_own_memory(const std::vector<double>& m) {
+    previous_h_ = 0;
     if (m.empty()) return;
     const auto n = static_cast<Eigen::Index>((m.size() - 1) / 2);
     previous_h_ = m[0];

@@ -19,6 +19,8 @@ namespace arcsim {
 /// that the old matrix would make next (natural monotonicity), becomes smaller; the latter does not suffer
 /// from the ratio of the stiffnesses.
 ///
+/// Strain limits are part of the balance: rounds of Newton, each with better multipliers (LimitRounds).
+///
 /// A step fails when the iteration does not converge, a number is not finite, or a face is stretched beyond
 /// the limit. It is then halved, the halves again, up to `max_halvings` times.
 class ConvergedStepper final : public ClothStepper {
@@ -26,17 +28,18 @@ public:
     ConvergedStepper(ClothModel& model, const StepParams& params, FillOrder order);
 
     StepResult step(State& s, double h) override;
-    void restart() override { previous_h_ = 0; }
-    std::vector<double> memory() const override;                 // h, x, v of one step earlier, for bdf2
-    void set_memory(const std::vector<double>& memory) override;
+    void restart() override;
 
 private:
+    std::vector<double> own_memory() const override;             // h, x, v of one step earlier, for bdf2
+    void set_own_memory(const std::vector<double>& memory) override;
     struct Problem {
         VectorXd x, v;      // x*, v*
         double h;           // h'
     };
     void advance(State& s, double h, StepResult& result);
     VectorXd solve(const Problem& p, const State& start, StepResult& result);
+    VectorXd balance(const Problem& p, VectorXd v, StepResult& result);   // with the limits' multipliers held
     double residual(const Problem& p, const VectorXd& v, VectorXd& r);   // returns the scale of its forces, N
     enum class Direction { exact, definite, unsymmetric };
     bool factorize(const Problem& p, const VectorXd& v, Direction direction);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "arcsim/base/error.hpp"
@@ -11,6 +12,25 @@ void ClothStepper::check_state(const VectorXd& x, double max_stretch) {
     if (face < 0 || stretch <= max_stretch) return;
     throw NumericalError("face " + std::to_string(face) + " is stretched " + format_short(stretch) +
                          " times (limit " + format_short(max_stretch) + ")");
+}
+
+void ClothStepper::restart() {
+    if (auto& limits = system_.model().limits) limits->set_multipliers({});
+}
+
+std::vector<double> ClothStepper::memory() const {
+    std::vector<double> memory;
+    if (const auto& limits = system_.model().limits) memory = limits->multipliers();
+    const std::vector<double> own = own_memory();
+    memory.insert(memory.end(), own.begin(), own.end());
+    return memory;
+}
+
+void ClothStepper::set_memory(const std::vector<double>& memory) {
+    const auto& limits = system_.model().limits;
+    const std::size_t n = limits ? std::min(limits->n_multipliers(), memory.size()) : 0;
+    if (limits) limits->set_multipliers({memory.begin(), memory.begin() + static_cast<std::ptrdiff_t>(n)});
+    set_own_memory({memory.begin() + static_cast<std::ptrdiff_t>(n), memory.end()});
 }
 
 StepResult LinearizedEuler::step(State& s, double h) {
@@ -45,14 +65,25 @@ StepResult LinearizedEuler::step(State& s, double h) {
     const double t3 = cpu_seconds();
 
     if (!v_.allFinite()) throw NumericalError("the step gave velocities that are not finite");
-    if (params_.max_stretch) check_state(s.x + h * v_, *params_.max_stretch);
+    x_ = s.x + h * v_;
+    if (projection_) {
+        try {
+            projection_->apply(A, h, x_, v_);
+        } catch (const NumericalError&) {
+            restart();
+            throw;
+        }
+    }
+    const double t4 = cpu_seconds();
+    if (params_.max_stretch) check_state(x_, *params_.max_stretch);
     model.refresh_after_step(s.x);
     s.v = v_;
-    s.x += h * v_;
+    s.x.swap(x_);
     cost_.assembly += t1 - t0;
     cost_.factor += t2 - t1;
     cost_.solve += t3 - t2;
-    cost_.rest += cpu_seconds() - t3;
+    cost_.limits += t4 - t3;
+    cost_.rest += cpu_seconds() - t4;
     ++cost_.steps;
     ++cost_.factorizations;
     return {};

@@ -9,9 +9,11 @@
 #include <regex>
 #include <sstream>
 
+#include "arcsim/mesh/obj_io.hpp"
 #include "tests/paths.hpp"
 
 namespace fs = std::filesystem;
+using namespace arcsim;
 using Catch::Contains;
 
 namespace {
@@ -144,6 +146,62 @@ TEST_CASE("several cloths run side by side, each as if it were alone") {
     }
     CHECK(text_of(dir / "both" / "0003_00.obj") != text_of(dir / "both" / "0003_01.obj"));
     CHECK_FALSE(fs::exists(dir / "first" / "0000_01.obj"));
+}
+
+TEST_CASE("a hanging sheet stays inside its strain limits, resumes to the same bytes, and ignores limits that are disabled") {
+    using nlohmann::json;
+    const fs::path dir = fresh_folder("limits");
+    const json hang = json::parse(text_of(changed_scene("hang_iso", dir, {})));
+    const auto largest_stretch = [](const ClothMesh& m) {
+        double largest = 0;
+        for (int f = 0; f < m.n_faces(); ++f) {
+            const Triangle &n = m.face_nodes[f], &u = m.face_verts[f];
+            Eigen::Matrix2d D;
+            D << m.u[u[1]] - m.u[u[0]], m.u[u[2]] - m.u[u[0]];
+            Eigen::Matrix<double, 3, 2> edges;
+            edges << m.x[n[1]] - m.x[n[0]], m.x[n[2]] - m.x[n[0]];
+            largest = std::max(largest, (edges * D.inverse()).operatorNorm());
+        }
+        return largest;
+    };
+    for (const std::string method : {"backward_euler", "newton_euler"}) {
+        json scene = hang;
+        scene["frame_time"] = 0.05;
+        scene["frame_steps"] = 5;
+        scene["end_frame"] = 8;
+        scene["solver"]["method"] = method;
+        scene["cloths"][0]["materials"][0]["strain_limits"] = {0.9, 1.02};
+        const auto write = [&](const std::string& name) {
+            std::ofstream(dir / (name + ".json")) << scene;
+            return run((dir / (name + ".json")).string() + " " + (dir / (method + name)).string() + " --quiet", dir);
+        };
+        REQUIRE(write("disabled").code == 0);
+        scene["disable"].erase(std::find(scene["disable"].begin(), scene["disable"].end(), "strainlimiting"));
+        const Result r = write("limited");
+        INFO(r.errors);
+        REQUIRE(r.code == 0);
+        const fs::path whole = dir / (method + "limited"), part = dir / (method + "part");
+        CHECK(largest_stretch(read_obj(dir / (method + "disabled") / "0008_00.obj")) > 1.05);
+        CHECK(largest_stretch(read_obj(whole / "0008_00.obj")) <= 1.02 + 2e-6);
+        if (method == "backward_euler") CHECK_THAT(text_of(whole / "timing"), !Contains(" 0 0 0 0 0 0\n"));   // third column: limits
+        fs::copy(whole, part, fs::copy_options::recursive);
+        fs::remove(part / "0008_00.obj");
+        REQUIRE(run("resume " + part.string() + " 6 " + (dir / "limited.json").string() + " --quiet", dir).code == 0);
+        CHECK(text_of(part / "0008_00.obj") == text_of(whole / "0008_00.obj"));
+    }
+}
+
+TEST_CASE("strain limits that hard handles exceed stop the run with exit code 3") {
+    const fs::path dir = fresh_folder("limits_exceeded");
+    const fs::path scene = changed_scene("strip_iso", dir, {{"\"strainlimiting\",", ""}, {"iso.json\"", "iso.json\", \"strain_limits\": [0.9, 1.05]"},
+                                                            {"\"nodes\"", "\"hard\": true, \"nodes\""}});
+    const Result r = run(scene.string() + " " + (dir / "out").string() + " --quiet", dir);
+    CHECK(r.code == 3);
+    CHECK_THAT(r.errors, Contains("strain limits cannot be met: face") && Contains("step ") && Contains("handles?"));
+    const Result wrong = run(changed_scene("strip_iso", dir, {{"iso.json\"", "iso.json\", \"strain_limits\": [1.1, 0.9]"}}).string() + " " +
+                                 (dir / "none").string() + " --quiet", dir);
+    CHECK(wrong.code == 2);
+    CHECK_THAT(wrong.errors, Contains("/strain_limits"));
 }
 
 TEST_CASE("frames of another program, without our resume files, are continued with a warning") {
