@@ -101,18 +101,24 @@ Pose pose_of(const TransformParams& p) {
     return pose;
 }
 
+Hermite hermite(double s, double span) {
+    const double s2 = s * s, s3 = s2 * s;
+    return {2 * s3 - 3 * s2 + 1, -2 * s3 + 3 * s2, span * (s3 - 2 * s2 + s), span * (s3 - s2)};
+}
+
 Pose Motion::pose(double time) const {
     if (time <= keys.front().time) return keys.front().pose;
     if (time >= keys.back().time) return keys.back().pose;
     const auto after = std::upper_bound(keys.begin(), keys.end(), time,
                                         [](double t, const Keyframe& k) { return t < k.time; });
     const Keyframe &a = *(after - 1), &b = *after;
-    const double span = b.time - a.time, s = (time - a.time) / span, s2 = s * s, s3 = s2 * s;
+    const double span = b.time - a.time;
+    const Hermite w = hermite((time - a.time) / span, span);
     Pose r = zero_pose();
-    add(r, a.pose, 2 * s3 - 3 * s2 + 1);
-    add(r, b.pose, -2 * s3 + 3 * s2);
-    add(r, a.rate, span * (s3 - 2 * s2 + s));
-    add(r, b.rate, span * (s3 - s2));
+    add(r, a.pose, w.value0);
+    add(r, b.pose, w.value1);
+    add(r, a.rate, w.rate0);
+    add(r, b.rate, w.rate1);
     return r;
 }
 

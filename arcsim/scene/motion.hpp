@@ -31,6 +31,13 @@ struct Keyframe {
     bool has_rate = false;
 };
 
+/// Weights of a cubic Hermite: of the values and the rates of change at both ends of a span.
+struct Hermite {
+    double value0, value1, rate0, rate1;
+};
+/// At s from 0 to 1 of a span of that length.
+Hermite hermite(double s, double span);
+
 /// Poses in time: cubic Hermite between keyframes, component by component, held outside.
 struct Motion {
     std::vector<Keyframe> keys;   // ascending times

@@ -68,7 +68,6 @@ void check_modelled(const SceneParams& scene, const std::string& source, Unsuppo
     if (!scene.cloths.empty() && !no_contact && is_empty(scene.obstacles))
         warnings.push_back(source + ": /disable: self-contact is not modelled; the cloth may pass through itself. "
                                     "Add \"proximity\" and \"collision\" to /disable to say that this is meant.");
-    if (!is_empty(scene.morphs)) judge.refuse("/morphs", "morphing to target shapes", "Remove the key.");
     for (size_t c = 0; c < scene.cloths.size(); ++c) {
         const ClothParams& cloth = scene.cloths[c];
         const std::string pointer = "/cloths/" + std::to_string(c);
@@ -100,6 +99,7 @@ Scene read_scene(const std::filesystem::path& file, Unsupported unsupported) {
         scene.warnings.push_back(document.source + ": neither end_time nor end_frame is given: runs until interrupted, frame 9999 at most.");
     check_modelled(p, document.source, unsupported, scene.warnings);
     scene.motions = read_motions(JsonNode(document, p.motions, "/motions"), scene.warnings);
+    scene.morphs = read_morphs(JsonNode(document, p.morphs, "/morphs"), scene.warnings);
     return scene;
 }
 

@@ -57,7 +57,7 @@ void run(const Scene& scene, Simulation& simulation, FrameFolder& folder, Progre
 
 void run_scene(const Scene& scene, const std::filesystem::path& folder, Progress& progress, RunStatus& status) {
     progress.begin("arcsim");
-    Simulation simulation(scene.params, scene.motions);   // before anything is written: the input may be wrong
+    Simulation simulation(scene.params, scene.motions, scene.morphs);   // before anything is written: the input may be wrong
     FrameFolder files(folder);
     files.begin(scene.text);
     files.write_frame(0, simulation);
@@ -68,7 +68,7 @@ void run_scene(const Scene& scene, const std::filesystem::path& folder, Progress
 void resume_scene(const Scene& scene, const std::filesystem::path& folder, int frame, Progress& progress,
                   RunStatus& status) {
     progress.begin("arcsim");
-    Simulation simulation(scene.params, scene.motions);
+    Simulation simulation(scene.params, scene.motions, scene.morphs);
     FrameFolder files(folder);
     if (const std::string warning = files.load_frame(frame, scene.params, simulation); !warning.empty())
         progress.warning(warning);

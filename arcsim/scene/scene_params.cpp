@@ -107,7 +107,7 @@ void visit(Archive& a, SceneParams& p) {
     a.raw("motions", p.motions, "Motions of handles: arrays of keyframes, or a .mot file.");
     a.list("handles", p.handles, "What holds the cloths.");
     a.raw("obstacles", p.obstacles, "Not modelled: must be empty, or contact disabled.");
-    a.raw("morphs", p.morphs, "Not modelled: must be empty.");
+    a.raw("morphs", p.morphs, "Springs from every node to target shapes that change in time.");
     a.optional("gravity", p.gravity, "m/s²", any_number, "Acceleration.");
     a.nested("wind", p.wind, "The air; without this key it is at rest and has density 1.");
     a.ignored("friction", contact_only);

@@ -88,7 +88,8 @@ struct SceneParams {
     std::vector<ClothParams> cloths;
     JsonValue motions = JsonValue::array();              // read by read_motions
     std::vector<HandleParams> handles;
-    JsonValue obstacles = JsonValue::array(), morphs = JsonValue::array();
+    JsonValue morphs = JsonValue::array();               // read by read_morphs
+    JsonValue obstacles = JsonValue::array();
     Vector3d gravity = Vector3d::Zero();                 // m/s²
     WindParams wind;
     std::vector<std::string> disable;

@@ -6,6 +6,17 @@
 
 namespace arcsim {
 
+namespace {
+
+void check_targets(const Morph& morph, size_t number, int n_nodes) {
+    for (size_t t = 0; t < morph.targets.size(); ++t)
+        if (morph.targets[t].size() != 3 * n_nodes)
+            throw InputError("/morphs/" + std::to_string(number) + ": target " + std::to_string(t) + " has " +
+                             std::to_string(morph.targets[t].size() / 3) + " nodes, the cloth " + std::to_string(n_nodes) + ".");
+}
+
+}  // namespace
+
 ClothMesh RunningCloth::frame() const {
     ClothMesh m = mesh;
     for (int i = 0; i < m.n_nodes(); ++i) {
@@ -22,7 +33,12 @@ void RunningCloth::set_frame(const ClothMesh& frame) {
     }
 }
 
-Simulation::Simulation(const SceneParams& scene, const std::vector<Motion>& motions) : scene_(scene) {
+Simulation::Simulation(const SceneParams& scene, const std::vector<Motion>& motions, std::vector<Morph> morphs)
+    : scene_(scene), morphs_(std::move(morphs)) {
+    for (size_t m = 0; m < morphs_.size(); ++m)
+        if (morphs_[m].cloth >= static_cast<int>(scene.cloths.size()))
+            throw InputError("/morphs/" + std::to_string(m) + ": cloth " + std::to_string(morphs_[m].cloth) + " does not exist; there are " +
+                             std::to_string(scene.cloths.size()) + ", counted from 0.");
     cloths_.resize(scene.cloths.size());   // never resized again: handles and steppers keep references
     for (size_t c = 0; c < cloths_.size(); ++c) {
         RunningCloth& cloth = cloths_[c];
@@ -31,8 +47,15 @@ Simulation::Simulation(const SceneParams& scene, const std::vector<Motion>& moti
         cloth.handles = std::make_unique<Handles>(scene, static_cast<int>(c), cloth.mesh, motions);
         cloth.model.springs.reserve_pairs(cloth.handles->glued_pairs());
         cloth.stepper = make_stepper(cloth.model, scene.solver);
-        cloth.stepper->place_handles = [&cloth](double time) {
+        std::vector<const Morph*> own;
+        for (size_t m = 0; m < morphs_.size(); ++m) {
+            if (morphs_[m].cloth != static_cast<int>(c)) continue;
+            check_targets(morphs_[m], m, cloth.mesh.n_nodes());
+            own.push_back(&morphs_[m]);
+        }
+        cloth.stepper->place_handles = [&cloth, own](double time) {
             cloth.handles->update(time, cloth.state.x, cloth.model);
+            for (const Morph* m : own) m->add_springs(time, cloth.model.springs.targets());
         };
         State& s = cloth.state;
         s.x.resize(3 * cloth.mesh.n_nodes());

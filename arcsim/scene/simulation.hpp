@@ -4,6 +4,7 @@
 
 #include "arcsim/scene/build_cloth.hpp"
 #include "arcsim/scene/handles.hpp"
+#include "arcsim/scene/morph.hpp"
 #include "arcsim/solve/cloth_stepper.hpp"
 
 namespace arcsim {
@@ -29,7 +30,7 @@ struct RunningCloth {
 class Simulation {
 public:
     /// Keeps references to `scene` and `motions`. @throws InputError: the cloths cannot be built
-    Simulation(const SceneParams& scene, const std::vector<Motion>& motions);
+    Simulation(const SceneParams& scene, const std::vector<Motion>& motions, std::vector<Morph> morphs = {});
 
     /// Time first, then handles at the new time with the old positions, wind and forces, the solve, what is
     /// lagged, positions. @throws NumericalError naming step, time, cloth and remedy
@@ -45,6 +46,7 @@ public:
 
 private:
     const SceneParams& scene_;
+    std::vector<Morph> morphs_;
     double time_ = 0;
     long steps_ = 0;
     std::vector<RunningCloth> cloths_;

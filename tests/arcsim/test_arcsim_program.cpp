@@ -191,6 +191,28 @@ TEST_CASE("a hanging sheet stays inside its strain limits, resumes to the same b
     }
 }
 
+TEST_CASE("a morph draws the cloth to its target") {
+    using nlohmann::json;
+    const fs::path dir = fresh_folder("morph");
+    json scene = json::parse(text_of(changed_scene("hang_iso", dir, {})));
+    ClothMesh target = read_obj(dir / "meshes" / "sheet21.obj");
+    for (Vector3d& x : target.x) x = Vector3d(x.x(), x.y(), 0.1 * std::sin(3 * x.x()));
+    write_obj(dir / "target.obj", target);
+    scene["handles"] = json::array();
+    scene["morphs"] = {{{"targets", {"meshes/sheet21.obj", "target.obj"}},
+                        {"spline", {{{"time", 0}, {"target", 0}, {"stiffness", 1}}, {{"time", 1}, {"target", 1}, {"stiffness", 1000}}}}}};
+    for (const std::string method : {"backward_euler", "bdf2"}) {
+        scene["solver"]["method"] = method;
+        std::ofstream(dir / "scene.json") << scene;
+        const Result r = run((dir / "scene.json").string() + " " + (dir / method).string() + " --quiet", dir);
+        INFO(r.errors);
+        REQUIRE(r.code == 0);
+        const ClothMesh end = read_obj(dir / method / "0005_00.obj");
+        // Springs of 1000 N/m carry the weight of 0.5 g a node, 5 µm, and the fabric's resistance.
+        for (int i = 0; i < end.n_nodes(); ++i) CHECK((end.x[i] - target.x[i]).norm() < 2e-3);
+    }
+}
+
 TEST_CASE("strain limits that hard handles exceed stop the run with exit code 3") {
     const fs::path dir = fresh_folder("limits_exceeded");
     const fs::path scene = changed_scene("strip_iso", dir, {{"\"strainlimiting\",", ""}, {"iso.json\"", "iso.json\", \"strain_limits\": [0.9, 1.05]"},
@@ -235,7 +257,14 @@ TEST_CASE("wrong input ends with exit code 2, names the place, and writes nothin
     expect("\"motion\": 0", "\"motion\": 4", "motion 4 does not exist");
     expect("\"frame_time\": 0.4", "\"frame_time\": -1", "/frame_time");
     expect("meshes/strip.obj", "meshes/none.obj", "meshes/none.obj");
-    expect("\"plasticity\"\\]", "\"popfilter\"], \"morphs\": [{}]", "/morphs");
+    const auto morph = [](const std::string& spline) {
+        return "\"plasticity\"], \"morphs\": [{\"targets\": [\"meshes/sheet21.obj\"], \"spline\": [" + spline + "]}]";
+    };
+    const std::string key = "{\"time\": 0, \"target\": 0, \"stiffness\": 1}";
+    expect("\"plasticity\"\\]", morph(""), "/morphs/0: a morph needs at least one key");
+    expect("\"plasticity\"\\]", morph(key), "target 0 has 441 nodes, the cloth 231");
+    expect("\"plasticity\"\\]", morph(key + ", " + key), "/morphs/0/spline/1/time");
+    expect("\"plasticity\"\\]", morph("{\"time\": 0, \"target\": 3, \"stiffness\": 1}"), "target 3 does not exist");
 }
 
 TEST_CASE("clockwise faces are refused, an indefinite material stops the run with exit code 3") {

@@ -5,6 +5,7 @@
 
 #include "arcsim/base/error.hpp"
 #include "arcsim/scene/handles.hpp"
+#include "arcsim/scene/morph.hpp"
 #include "arcsim/scene/motion.hpp"
 
 using namespace arcsim;
@@ -68,6 +69,30 @@ TEST_CASE("a file of recorded motions gives one motion per body, moved by the tr
     CHECK(m[1].pose(7).translation == Vector3d(10, 10, 10));
     std::ofstream(file) << "1 3 0 0 0 1 0 0 0";
     CHECK_THROWS_WITH(read_mot_file(file, 1, {}), Contains("ends too early"));
+}
+
+TEST_CASE("a morph's shapes follow the cubic of motions and its stiffness the cubic of logarithms") {
+    Morph morph;
+    for (double x : {0.0, 1.0, 6.0}) morph.targets.push_back(VectorXd::Constant(6, x));
+    morph.keys = {{0, 0, 10}, {1, 1, 1000}, {3, 2, 10}};
+    const auto motion = motions_from(R"([[{"time": 0}, {"time": 1, "transform": {"translate": [1,0,0]}},
+                                         {"time": 3, "transform": {"translate": [6,0,0]}}]])");
+    VectorXd shape;
+    for (double time : {-1.0, 0.0, 0.3, 1.0, 1.7, 2.9, 3.0, 8.0}) {
+        const double stiffness = morph.at(time, shape);
+        INFO(time);
+        CHECK(shape[5] == Approx(motion[0].pose(time).translation.x()).margin(1e-14));
+        if (time <= 0 || time >= 3) CHECK(stiffness == Approx(10));
+    }
+    CHECK(morph.at(1, shape) == Approx(1000));
+    CHECK(morph.at(0.5, shape) > 90);   // half way in the logarithm is 100, of the values 505
+    CHECK(morph.at(0.5, shape) < 150);
+    std::vector<SpringForce::Target> springs;
+    morph.add_springs(1, springs);
+    REQUIRE(springs.size() == 2);
+    CHECK(springs[1].node == 1);
+    CHECK(springs[1].stiffness == Approx(1000));
+    CHECK(springs[1].position == Vector3d(1, 1, 1));
 }
 
 TEST_CASE("errors of motions name the keyframe") {
