@@ -78,13 +78,13 @@ void Progress::update(const ProgressState& s) {
         std::fprintf(stderr, "%s\n", to_text_one_line(v).c_str());
         return;
     }
+    // What matters most comes first: a narrow terminal cuts the end off.
     std::string text = "[" + task_ + "] ";
     if (s.fraction) text += std::to_string(static_cast<int>(100 * *s.fraction)) + " %, ";
-    text += "step " + std::to_string(s.step);
-    if (s.residual >= 0) text += ", residual " + format_short(s.residual, 2);
-    if (s.goal >= 0) text += " (goal " + format_short(s.goal, 2) + ")";
-    if (!s.note.empty()) text += ", " + s.note;
-    text += ", " + format_duration(elapsed) + left;
+    if (s.step > 0) text += "step " + std::to_string(s.step) + ", ";
+    if (s.residual >= 0) text += "residual " + format_short(s.residual, 2) + (s.goal >= 0 ? " of " + format_short(s.goal, 2) : "") + ", ";
+    text += format_duration(elapsed) + left;
+    if (!s.note.empty()) text += "; " + s.note;
     if (terminal) {
         text.resize(std::min(text.size(), terminal_columns()));
         const std::size_t width = text.size();
