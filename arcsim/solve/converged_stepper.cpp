@@ -20,6 +20,7 @@ ConvergedStepper::ConvergedStepper(ClothModel& model, const StepParams& params, 
     if (is_damped_ || model.wind->acts()) viscous_ = std::make_unique<BlockMatrix>(system_.pattern());
     size_ = model.size;
     model.bend->follow_angle();
+    model.wind->follow_normal();
 }
 
 StepResult ConvergedStepper::step(State& s, double h) {
@@ -126,6 +127,7 @@ bool ConvergedStepper::factorize(const Problem& p, const VectorXd& v, Direction 
     model.stretch->add_hessian(trial_, tangent, A);
     model.bend->add_hessian(trial_, tangent, A);
     model.springs.add_hessian(trial_, tangent, A);
+    model.wind->add_hessian(trial_, tangent, A);
     if (model.limits) model.limits->add_hessian(trial_, tangent, A);
     A.scale(p.h * p.h);
     if (viscous_) {

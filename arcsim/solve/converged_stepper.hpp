@@ -12,7 +12,7 @@ namespace arcsim {
 /// h' = 2h/3 (the first step, and the first after a halving, is backward Euler's). g: gradient of all forces,
 /// D: stiffness-proportional damping. Nothing lags: bending stiffness and the wind's normal are those of x.
 ///
-/// Newton with K = M + h'² H + h' (D + W). H is the exact tangent while K is positive definite; else the
+/// Newton with K = M + h'² H + h' (D + W), W the wind's derivative by the velocity. H is the exact tangent while K is positive definite; else the
 /// definite one. A balance that is not a minimum (a perfectly flat sheet that is pressed together in its plane)
 /// is out of reach of both: after some halvings the exact unsymmetric tangent with LU may find it; not before,
 /// since it would as well keep a sheet flat that ought to buckle. The tabulated law has no potential, so the line search asks that the residual, or else the correction
