@@ -21,15 +21,6 @@ constexpr int most_halvings = 12;
 constexpr int patience = 60;             // Newton steps without a new best residual
 constexpr double newton_is_trusted_at = 1e-2;   // relative residual; unsymmetric laws
 
-SolverKind kind_of(LinearSolverChoice c) {
-    switch (c) {
-        case LinearSolverChoice::umfpack: return SolverKind::umfpack;
-        case LinearSolverChoice::eigen: return SolverKind::eigen_ldlt;
-        case LinearSolverChoice::cholmod: break;
-    }
-    return SolverKind::cholmod;
-}
-
 struct Stopwatch {
     double& sum;
     double start = cpu_seconds();
@@ -42,16 +33,15 @@ struct Stopwatch {
 NewtonSolver::NewtonSolver(StaticSystem& system, const SolverParams& params,
                            std::function<void(const IterationReport&)> on_iteration)
     : system_(system), params_(params), log_(system, std::move(on_iteration)),
-      solver_(arcsim::make_linear_solver(kind_of(params.linear_solver))), 
+      factor_(params.linear_solver),
       H_(system.pattern(), system.membrane().law().is_strongly_unsymmetric() ? BlockMatrix::Kind::general
                                                                              : BlockMatrix::Kind::symmetric),
       limit_(params.max_iterations), T_ref_(system.scales().tension) {
-    solver_->analyze(system.pattern());
+    factor_.analyze(system.pattern());
     if (H_.is_general()) {
         lu_ = arcsim::make_linear_solver(SolverKind::umfpack);
         lu_->analyze(system.pattern());
     }
-    times_.symbolic = solver_->cost().symbolic_s;
     times_.ordering = system.ordering_s();
 }
 
@@ -64,8 +54,9 @@ bool NewtonSolver::factorize_regularised(double& T0) {
     for (int attempt = 0; attempt < 12 && !ok; ++attempt) {
         {
             Stopwatch watch(times_.numeric);
-            ok = solver_->try_factorize(H_);
+            ok = factor_.try_factorize(H_);
         }
+        times_.symbolic = factor_.symbolic_s();
         if (ok) break;
         const double raised = std::max(10 * (T0 + borrowed), wake_at * T_ref_);
         system_.add_laplacian(raised - T0 - borrowed, H_);
@@ -91,7 +82,7 @@ bool NewtonSolver::direction(double& T0, double relative) {
         arcsim::PcgOutcome out;
         {
             Stopwatch watch(times_.solve);
-            out = pcg_.solve(multiply, *solver_, rhs_, eta, pcg_limit, d_);
+            out = pcg_.solve(multiply, factor_.solver(), rhs_, eta, pcg_limit, d_);
         }
         if (out.status == PcgStatus::converged) {
             factor_is_stale_ = out.iterations > pcg_refactor_next;

@@ -8,6 +8,7 @@
 #include "arcsim/solve/pcg.hpp"
 #include "formwork/equilibrium/iteration_log.hpp"
 #include "formwork/equilibrium/method.hpp"
+#include "formwork/equilibrium/tangent_factor.hpp"
 
 namespace formwork {
 
@@ -33,11 +34,10 @@ public:
 
     int iterations() const override { return iterations_; }
     int factorizations() const override {
-        return solver_->cost().factorizations + (lu_ ? lu_->cost().factorizations : 0);
+        return factor_.factorizations() + (lu_ ? lu_->cost().factorizations : 0);
     }
     const std::vector<IterationReport>& history() const override { return log_.reports(); }
     const SolverTimes& times() const override { return times_; }
-    const arcsim::LinearSolver& linear_solver() const { return *solver_; }
     void allow_iterations(int more) override { limit_ = iterations_ + more; }
 
 private:
@@ -49,7 +49,8 @@ private:
     StaticSystem& system_;
     SolverParams params_;
     IterationLog log_;
-    std::unique_ptr<arcsim::LinearSolver> solver_, lu_;   // lu_: for strongly unsymmetric laws
+    TangentFactor factor_;
+    std::unique_ptr<arcsim::LinearSolver> lu_;   // for strongly unsymmetric laws
     arcsim::FactorPcg pcg_;
     BlockMatrix H_;
     VectorXd border_, g_, d_, trial_g_, rhs_;
