@@ -1,6 +1,8 @@
 #include "formwork/panels/allowance.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace formwork {
 namespace {
@@ -14,31 +16,97 @@ Vector2d outward(const Vector2d& from, const Vector2d& to) {
     return {d.y(), -d.x()};
 }
 
+/// The cloth along edge p -> b.
+Polygon strip(const Vector2d& p, const Vector2d& b, double width) {
+    const Vector2d n = outward(p, b);
+    return {p - seat * n, p + width * n, b + width * n, b - seat * n};
+}
+
+/// What lies between the strips before and after corner p; empty where they leave nothing to fill.
+Polygon wedge(const Vector2d& a, const Vector2d& p, const Vector2d& b, double before, double after, Corner corner, double mitre_limit) {
+    const Vector2d n1 = outward(a, p), n2 = outward(p, b);
+    const double turn = cross(n1, n2);
+    const bool reversal = n1.dot(n2) < 0;   // the tip of a slit: no normal in between to fill
+    if ((turn <= straight && !reversal) || (before <= 0 && after <= 0)) return {};
+    // Its feet stand in the strips on either side.
+    const Vector2d back(n1.y(), -n1.x()), ahead(-n2.y(), n2.x());
+    Polygon w{p - seat * (n1 + n2), p + before * n1 + seat * back, p + before * n1, p + after * n2, p + after * n2 + seat * ahead};
+    if (turn > straight) {   // a convex corner: the point where both offset lines meet
+        const Vector2d m = (before * Vector2d(n2.y(), -n2.x()) - after * Vector2d(n1.y(), -n1.x())) / turn;
+        const bool small_turn = n1.dot(n2) > 0.9 && std::abs(before - after) < 1e-9;   // along a smooth curve
+        const bool ahead_of_both = m.dot(back) <= 0 && m.dot(ahead) <= 0;   // else the wider strip ends in a step
+        const bool mitred = corner == Corner::mitre && m.norm() <= mitre_limit * std::max(before, after);
+        if (ahead_of_both && (mitred || small_turn)) w.insert(w.begin() + 3, p + m);
+    }
+    return std::abs(signed_area(w)) > 0 ? w : Polygon{};
+}
+
+/// A hem's end at corner p. Coordinates (s, h): s along the fold, away from the seam, h outwards.
+struct HemEnd {
+    Vector2d p, along, out;
+    double foot, head;   // s where the mirrored line leaves the fold, and where it reaches the hem's width
+    double width;
+    Vector2d at(double s, double h) const { return p + s * along + h * out; }
+
+    /// Cloth up to the mirrored line, seated in the first strip.
+    Polygon added() const {
+        return {at(foot, -seat), at(foot, 0), at(head, width), at(std::max(head, 0.0) + seat, width), at(std::max(foot, 0.0) + seat, -seat)};
+    }
+    /// Cloth beyond it.
+    Polygon removed() const {
+        const double far = 4 * width + std::abs(foot) + std::abs(head), slope = (head - foot) / width;
+        return {at(foot, 0), at(foot + 2 * slope * width, 2 * width), at(-far, 2 * width), at(-far, 0)};
+    }
+};
+
+/// The end of a hem where it meets the seam edge from p to `seam_to`, if the seam crosses the fold steeply enough to be mirrored.
+std::optional<HemEnd> hem_end(const Vector2d& p, const Vector2d& fold_to, const Vector2d& seam_to, const Vector2d& out,
+                            const Vector2d& seam_out, double seam_allowance, double width) {
+    constexpr double steepest = 0.35;   // sine of 20°: flatter, the end would be as long as the hem is wide
+    const Vector2d along = (fold_to - p).normalized(), seam = (seam_to - p).normalized();
+    const double down = -seam.dot(out);
+    if (down < steepest || width <= 0) return {};
+    const double foot = seam_allowance * (seam_out.dot(along) + seam_out.dot(out) * seam.dot(along) / down);
+    return HemEnd{p, along, out, foot, foot + width * seam.dot(along) / down, width};
+}
+
 }  // namespace
 
-Polygon cut_line(const Polygon& sew, const std::vector<double>& allowance, Corner corner, double mitre_limit) {
+Polygon cut_line(const Polygon& sew, const std::vector<double>& allowance, Corner corner, double mitre_limit,
+                 const std::vector<char>& folded) {
     const std::size_t n = sew.size();
+    const auto is_fold = [&](std::size_t edge) { return !folded.empty() && folded[edge % n] != 0; };
+    std::size_t start = 0;   // where a hem begins, so that none is met in two halves
+    while (start < n && (!is_fold(start) || is_fold(start + n - 1))) ++start;
+
+    struct Hem {
+        std::vector<Polygon> cloth, beyond;   // its ends remove nothing of another hem
+    };
     std::vector<Polygon> parts{sew};
-    for (std::size_t i = 0; i < n; ++i) {
-        const Vector2d &a = sew[(i + n - 1) % n], &p = sew[i], &b = sew[(i + 1) % n];
-        const double before = allowance[(i + n - 1) % n], after = allowance[i];
-        const Vector2d n1 = outward(a, p), n2 = outward(p, b);
-        if (after > 0) parts.push_back({p - seat * n2, p + after * n2, b + after * n2, b - seat * n2});
-        const double turn = cross(n1, n2);
-        const bool reversal = n1.dot(n2) < 0;   // the tip of a slit: no normal in between to fill
-        if ((turn <= straight && !reversal) || (before <= 0 && after <= 0)) continue;
-        // Its feet stand in the strips on either side.
-        const Vector2d back(n1.y(), -n1.x()), ahead(-n2.y(), n2.x());
-        Polygon wedge{p - seat * (n1 + n2), p + before * n1 + seat * back, p + before * n1, p + after * n2, p + after * n2 + seat * ahead};
-        if (turn > straight) {   // a convex corner: the point where both offset lines meet
-            const Vector2d m = (before * Vector2d(n2.y(), -n2.x()) - after * Vector2d(n1.y(), -n1.x())) / turn;
-            const bool small_turn = n1.dot(n2) > 0.9 && std::abs(before - after) < 1e-9;   // along a smooth curve
-            const bool ahead_of_both = m.dot(back) <= 0 && m.dot(ahead) <= 0;   // else the wider strip ends in a step
-            const bool mitred = corner == Corner::mitre && m.norm() <= mitre_limit * std::max(before, after);
-            if (ahead_of_both && (mitred || small_turn)) wedge.insert(wedge.begin() + 3, p + m);
+    std::vector<Hem> hems(1);
+    for (std::size_t k = 0; k < n; ++k) {
+        const std::size_t i = (start + k) % n, last = (i + n - 1) % n;
+        const Vector2d &a = sew[last], &p = sew[i], &b = sew[(i + 1) % n];
+        const bool begins = is_fold(i) && !is_fold(last), ends = !is_fold(i) && is_fold(last);
+        if (begins) hems.emplace_back();
+        Hem& hem = hems.back();
+        if (allowance[i] > 0) (is_fold(i) ? hem.cloth : parts).push_back(strip(p, b, allowance[i]));
+        std::optional<HemEnd> end;
+        if (begins) end = hem_end(p, b, a, outward(p, b), outward(a, p), allowance[last], allowance[i]);
+        if (ends) end = hem_end(p, a, b, outward(a, p), outward(p, b), allowance[i], allowance[last]);
+        if (!end) {
+            Polygon w = wedge(a, p, b, allowance[last], allowance[i], corner, mitre_limit);
+            if (!w.empty()) (is_fold(i) && is_fold(last) ? hem.cloth : parts).push_back(std::move(w));
+            continue;
         }
-        if (std::abs(signed_area(wedge)) > 0) parts.push_back(wedge);
+        hem.cloth.push_back(end->added());
+        hem.beyond.push_back(end->removed());
+        // The seam's own allowance runs on to the fold.
+        const Vector2d seam_out = begins ? outward(a, p) : outward(p, b);
+        parts.push_back({p - seat * seam_out, p + allowance[begins ? last : i] * seam_out, end->at(end->foot, 0)});
     }
+    for (const Hem& hem : hems)
+        for (Polygon& part : difference(hem.cloth, hem.beyond)) parts.push_back(std::move(part));
     return outer_union(parts);
 }
 

@@ -7,7 +7,6 @@ namespace formwork {
 namespace {
 
 constexpr double mm = 1000;            // per metre
-constexpr double stroke_spacing = 3;   // mm between the strokes of a double or triple notch
 constexpr double bar = 2;              // mm, half the bar of a T and half the mouth of a V
 
 /// One stroke at `edge` (on the cut line), `depth` towards the sew line.
@@ -46,16 +45,16 @@ void add_notches(const PanelSet& set, PatternPiece& piece) {
                 mark.sew = p.at;
                 mark.cut = on_cut_line(piece, p.at, out, allowance);
                 const NotchStyle style = k == 0 ? notch_style(seam.style) : NotchStyle{};
-                mark.shape = style.shape;
-                for (int s = 0; s < style.strokes; ++s) {
-                    const Vector2d foot = p.at + (s - (style.strokes - 1) / 2.0) * stroke_spacing * p.tangent;
+                for (std::size_t s = 0; s < style.strokes.size(); ++s) {
+                    const Vector2d foot = p.at + stroke_offset_mm(style, s) * p.tangent;
                     const Vector2d edge = on_cut_line(piece, foot, out, allowance);
                     const double room = (edge - foot).norm();
                     // A slit must not reach the sew line; without allowance the mark is drawn inside the piece.
                     const bool has_room = room > 1;
                     const Vector2d inward = has_room ? Vector2d((foot - edge) / room) : Vector2d(-out);
                     const double depth = has_room ? std::min(set.params.notch_length_mm, 0.6 * room) : set.params.notch_length_mm;
-                    for (Line& line : stroke(style.shape, has_room ? edge : foot, inward, Vector2d(inward.y(), -inward.x()), depth))
+                    mark.feet.push_back({style.strokes[s], edge});
+                    for (Line& line : stroke(style.strokes[s], has_room ? edge : foot, inward, Vector2d(inward.y(), -inward.x()), depth))
                         mark.strokes.push_back(std::move(line));
                 }
                 mark.strokes.push_back({p.at - 1.5 * out, p.at + std::min(1.5, 0.2 * (mark.cut - p.at).norm()) * out});   // tick on the sew line

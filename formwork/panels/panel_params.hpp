@@ -1,6 +1,9 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "arcsim/base/archive.hpp"
@@ -28,6 +31,12 @@ inline constexpr std::array paper_names{
     arcsim::EnumName{Paper::letter, "Letter", "215.9 x 279.4 mm, tiled"},
     arcsim::EnumName{Paper::a3, "A3", "297 x 420 mm, tiled"},
     arcsim::EnumName{Paper::a0, "A0", "plotter: one page as large as the pattern"}};
+
+inline std::optional<Paper> paper_of(std::string_view name) {
+    for (const auto& n : paper_names)
+        if (name == n.name) return n.value;
+    return {};
+}
 
 enum class Lettering { characters, paths };
 inline constexpr std::array lettering_names{
@@ -61,6 +70,7 @@ struct PanelParams {
     double roll_width_mm = 1500, nest_gap_mm = 5;
     bool quarter_turns = false;
     Paper paper = Paper::a4;
+    std::vector<std::string> more_papers;   // by name; one PDF each
     Lettering text = Lettering::characters;
     int cut_count = 1;
 };
@@ -92,6 +102,9 @@ void visit(Archive& a, PanelParams& p) {
     a.optional("nest_gap_mm", p.nest_gap_mm, "mm", between(0, 100), "Least distance between nested pieces.");
     a.optional("quarter_turns", p.quarter_turns, "Pieces may also lie across the roll (fabrics without a preferred thread).");
     a.choice("paper", p.paper, paper_names, "Paper of the printed pattern.");
+    a.optional("more_papers", p.more_papers, "Further papers, a PDF each: \"A4\", \"Letter\", \"A3\", \"A0\".");
+    for (const std::string& name : p.more_papers)
+        a.check(paper_of(name).has_value(), "more_papers", "\"" + name + "\" is not known: \"A4\", \"Letter\", \"A3\" or \"A0\".");
     a.choice("text", p.text, lettering_names, "How names and lengths are written in the SVG and DXF files.");
     a.optional("cut_count", p.cut_count, "1", between(1, 100), "How many bags are cut; printed on every piece, counted in the bill.");
 }

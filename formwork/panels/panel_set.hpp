@@ -22,7 +22,7 @@ struct PanelSeam {
     double rest_length = 0;         // on the surface, m
     std::vector<double> notch_rest; // where notches divide the seam on the surface: ascending shares of rest_length
     std::vector<double> notch;      // the same points as shares of the flat length, the same on both sides
-    int style = 0;                  // see NotchStyle; differs among the seams of a panel
+    int style = 0;                  // see NotchStyle; no two seams have the same
     double mismatch = 0;            // |a - b| / max(a, b) of the whole seam
     double local_mismatch = 0;      // the largest |a - b| between notches over the longer one
     bool is_rim() const { return side[1].panel < 0; }

@@ -110,9 +110,9 @@ std::vector<std::vector<int>> pack(std::vector<int> which, const std::vector<Pat
 
 }  // namespace
 
-PaperLayout lay_on_sheets(const std::vector<PatternPiece>& as_cut, const PanelParams& params) {
+PaperLayout lay_on_sheets(const std::vector<PatternPiece>& as_cut, const PanelParams& params, Paper paper) {
     PaperLayout layout;
-    layout.paper = paper_size(params.paper);
+    layout.paper = paper_size(paper);
     const Vector2d room = layout.paper - Vector2d::Constant(2 * page_margin);
     for (const PatternPiece& piece : as_cut) layout.pieces.push_back(turned_to_fit(piece, room));
     const std::vector<PatternPiece>& pieces = layout.pieces;

@@ -54,6 +54,7 @@ PatternPiece turned_piece(PatternPiece piece, double angle) {
     for (Line& fold : piece.folds) move(fold);
     for (NotchMark& notch : piece.notches) {
         notch.sew = turn * notch.sew, notch.cut = turn * notch.cut;
+        for (NotchMark::Foot& foot : notch.feet) foot.at = turn * foot.at;
         for (Line& stroke : notch.strokes) move(stroke);
     }
     for (Vector2d& end : piece.grain) end = turn * end;

@@ -25,8 +25,12 @@ using Line = std::vector<Vector2d>;
 
 struct NotchMark {
     int seam = 0;
-    NotchShape shape = NotchShape::slit;
-    Vector2d sew, cut;            // its points on the sew line and on the cut line
+    struct Foot {
+        NotchShape shape;
+        Vector2d at;              // on the cut line
+    };
+    std::vector<Foot> feet;       // one per stroke
+    Vector2d sew, cut;            // the middle's points on the sew line and on the cut line
     std::vector<Line> strokes;    // in the allowance, from the cut line inwards
 };
 

@@ -48,7 +48,8 @@ void write_block(DxfText& dxf, const Pattern& pattern, const PatternPiece& piece
     system("Material: FABRIC");
     dxf.polyline(boundary, piece.cut, true);
     outline_points(dxf, piece.cut);
-    for (const NotchMark& notch : piece.notches) dxf.point(notch.shape == NotchShape::tee ? tee_notches : notches, notch.cut);
+    for (const NotchMark& notch : piece.notches)
+        for (const NotchMark::Foot& foot : notch.feet) dxf.point(foot.shape == NotchShape::tee ? tee_notches : notches, foot.at);
     dxf.line(grain, piece.grain[0], piece.grain[1]);
     for (const Line& fold : piece.folds) dxf.polyline(internal, fold, false);
     dxf.polyline(sew_line, piece.sew, true);

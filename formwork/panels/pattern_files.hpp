@@ -26,11 +26,10 @@ std::string pattern_dxf(const Pattern& pattern);
 /// @throws InputError  a piece without grain line or with fewer than three points
 std::string pattern_astm(const Pattern& pattern);
 
-/// Pages of `pattern.params.paper`: an overview with page map, 100 mm square and instructions, then the tiles
-/// with overlap, corner crosses and neighbours' names; on A0 one page as large as the pattern. The bytes of a PDF.
-/// Writes to `file` itself (libharu wants a file name).  @throws InputError  file cannot be written, or the
-/// one page would be longer than PDF allows
-std::string pattern_pdf(const Pattern& pattern);
+/// The bytes of a PDF on `paper`: an overview with page map, 100 mm square and instructions, then the sheets, with
+/// overlap, corner crosses and neighbours' names where they are glued; on A0 one page as large as the pattern.
+/// @throws InputError  the one page would be longer than PDF allows
+std::string pattern_pdf(const Pattern& pattern, Paper paper);
 
 /// One row per panel: sizes in mm and m², distortion, grain.
 std::string panels_csv(const PanelSet& set, const Pattern& pattern);
@@ -51,7 +50,7 @@ struct PatternFiles {
     double roll_length_m = 0;
 };
 
-/// Writes panels.svg, pieces/P01.svg ..., panels.dxf, panels-astm.dxf, panels-<paper>.pdf, panels.csv, seams.csv,
+/// Writes panels.svg, pieces/P01.svg ..., panels.dxf, panels-astm.dxf, panels-<paper>.pdf of every paper, panels.csv, seams.csv,
 /// seams.json, faces.csv, bom.csv and sewn_rest.obj. Everything is computed first, then written to temporary
 /// names, then renamed: an error leaves the folder as it was. Pieces and papers of an earlier run are removed.
 PatternFiles write_patterns(const PanelSet& set, const Segmentation& s, const Pattern& pattern,

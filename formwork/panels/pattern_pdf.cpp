@@ -147,12 +147,12 @@ void draw_plot(PdfDocument& document, const Pattern& pattern) {
 
 }  // namespace
 
-std::string pattern_pdf(const Pattern& pattern) {
+std::string pattern_pdf(const Pattern& pattern, Paper paper) {
     PdfDocument document(pattern.info.name);
-    if (pattern.params.paper == Paper::a0) {
+    if (paper == Paper::a0) {
         draw_plot(document, pattern);
     } else {
-        const PaperLayout layout = lay_on_sheets(pattern.pieces, pattern.params);
+        const PaperLayout layout = lay_on_sheets(pattern.pieces, pattern.params, paper);
         PdfPage overview(document, layout.paper);
         draw_overview(overview, pattern, layout);
         for (std::size_t i = 0; i < layout.sheets.size(); ++i) {

@@ -20,11 +20,9 @@ int step_of(const Pattern& pattern, int seam) {
     return static_cast<int>(std::find_if(pattern.order.begin(), pattern.order.end(), has_it) - pattern.order.begin()) + 1;
 }
 
-std::string notch_words(const PanelSeam& seam) {
+std::string first_notch(const PanelSeam& seam) {
     if (seam.is_rim()) return "none";
-    static constexpr std::array<const char*, 3> counts{"single", "double", "triple"}, shapes{"slit", "T", "V"};
-    const NotchStyle style = notch_style(seam.style);
-    return std::string(counts[style.strokes - 1]) + " " + shapes[static_cast<int>(style.shape)];
+    return notch_words(notch_style(seam.style));
 }
 
 /// A field that a spreadsheet leaves alone.
@@ -66,7 +64,7 @@ std::string seams_csv(const PanelSet& set, const Pattern& pattern) {
             << (seam.is_rim() ? "" : panel_name(seam.side[1].panel)) << ',' << number(mm * seam.side[0].length) << ','
             << (seam.is_rim() ? "" : number(mm * seam.side[1].length)) << ',' << number(seam.mismatch) << ',' << number(seam.local_mismatch)
             << ',' << number(mm * seam.rest_length) << ',' << number(allowance_mm(set, static_cast<int>(i))) << ',' << seam.notch.size() << ','
-            << notch_words(seam) << ',' << step << ',' << to_string(pattern.order[step - 1].kind) << '\n';
+            << first_notch(seam) << ',' << step << ',' << to_string(pattern.order[step - 1].kind) << '\n';
     }
     return out.str();
 }
@@ -80,7 +78,7 @@ std::string seams_json(const PanelSet& set, const Segmentation& s, const Pattern
         entry["allowance_mm"] = allowance_mm(set, static_cast<int>(i));
         entry["mismatch"] = seam.mismatch;
         entry["notches"] = seam.notch;
-        entry["first_notch"] = notch_words(seam);
+        entry["first_notch"] = first_notch(seam);
         entry["step"] = step_of(pattern, static_cast<int>(i));
         entry["nodes"] = s.seams[i].nodes;
         for (const SeamSide& side : seam.side) {

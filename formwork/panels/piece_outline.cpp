@@ -40,13 +40,15 @@ PatternPiece outline_piece(const PanelSet& set, int panel) {
                     {static_cast<int>(i), side, set.seams[i].is_rim()};
         }
     std::vector<double> allowance;
+    std::vector<char> folded;
     for (std::size_t i = 0; i < p.boundary.size(); ++i) {
         const SewEdge edge = seam_of.at({p.boundary[i], p.boundary[(i + 1) % p.boundary.size()]});
         piece.sew.push_back(mm * p.u[p.boundary[i]]);
         piece.sew_seam.push_back(edge);
         allowance.push_back(allowance_mm(set, edge.seam));
+        folded.push_back(edge.rim);
     }
-    piece.cut = cut_line(piece.sew, allowance, set.params.corners, set.params.mitre_limit);
+    piece.cut = cut_line(piece.sew, allowance, set.params.corners, set.params.mitre_limit, folded);
     piece.cut_area = signed_area(piece.cut);
     for (const PanelSeam& seam : set.seams)
         if (seam.is_rim() && seam.side[0].panel == panel) {

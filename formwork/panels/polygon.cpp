@@ -111,20 +111,29 @@ Room widest_room(const Polygon& p) {
     return best;
 }
 
-Polygon outer_union(const std::vector<Polygon>& parts) {
+std::vector<Polygon> difference(const std::vector<Polygon>& parts, const std::vector<Polygon>& holes) {
     ClipperLib::Clipper clipper;
-    for (const Polygon& part : parts) {
-        ClipperLib::Path path = to_clipper(part);
-        if (!ClipperLib::Orientation(path)) ClipperLib::ReversePath(path);
-        clipper.AddPath(path, ClipperLib::ptSubject, true);
-    }
+    const auto add = [&](const std::vector<Polygon>& polygons, ClipperLib::PolyType type) {
+        for (const Polygon& polygon : polygons) {
+            ClipperLib::Path path = to_clipper(polygon);
+            if (!ClipperLib::Orientation(path)) ClipperLib::ReversePath(path);
+            clipper.AddPath(path, type, true);
+        }
+    };
+    add(parts, ClipperLib::ptSubject);
+    add(holes, ClipperLib::ptClip);
     ClipperLib::Paths result;
-    clipper.Execute(ClipperLib::ctUnion, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+    clipper.Execute(ClipperLib::ctDifference, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+    std::vector<Polygon> outlines;
+    for (const ClipperLib::Path& path : result)
+        if (ClipperLib::Orientation(path)) outlines.push_back(from_clipper(path));
+    return outlines;
+}
+
+Polygon outer_union(const std::vector<Polygon>& parts) {
     Polygon outer;
-    for (const ClipperLib::Path& path : result) {
-        Polygon candidate = from_clipper(path);
+    for (Polygon& candidate : difference(parts, {}))
         if (signed_area(candidate) > signed_area(outer)) outer = std::move(candidate);
-    }
     return outer;
 }
 

@@ -38,6 +38,9 @@ Room widest_room(const Polygon& p);
 /// Points are rounded to 0.1 µm.
 Polygon outer_union(const std::vector<Polygon>& parts);
 
+/// The outer outlines of the union of `parts` less that of `holes`.
+std::vector<Polygon> difference(const std::vector<Polygon>& parts, const std::vector<Polygon>& holes);
+
 /// All points nearer than `distance` to the polygon; round corners.
 Polygon inflated(const Polygon& p, double distance);
 

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <memory>
+#include <set>
 
 #include "arcsim/base/files.hpp"
 #include "arcsim/mesh/obj_io.hpp"
@@ -37,7 +37,6 @@ void remove_stale_files(const std::filesystem::path& folder, const std::vector<s
 
 PatternFiles write_patterns(const PanelSet& set, const Segmentation& s, const Pattern& pattern, const std::filesystem::path& folder) {
     std::vector<std::pair<std::string, std::string>> texts{
-        {pdf_name(pattern.params.paper), pattern_pdf(pattern)},
         {"panels.svg", pattern_svg(pattern)},
         {"panels.dxf", pattern_dxf(pattern)},
         {"panels-astm.dxf", pattern_astm(pattern)},
@@ -47,6 +46,9 @@ PatternFiles write_patterns(const PanelSet& set, const Segmentation& s, const Pa
         {"faces.csv", faces_csv(set)},
         {"bom.csv", bom_csv(set, pattern)},
         {"sewn_rest.obj", arcsim::format_obj(sewn_rest(set, s))}};
+    std::set<Paper> papers{pattern.params.paper};
+    for (const std::string& name : pattern.params.more_papers) papers.insert(paper_of(name).value());
+    for (Paper paper : papers) texts.emplace_back(pdf_name(paper), pattern_pdf(pattern, paper));
     for (std::size_t i = 0; i < pattern.pieces.size(); ++i)
         texts.emplace_back(pieces_folder + ("/" + pattern.pieces[i].name) + ".svg", piece_svg(pattern, i));
 

@@ -58,3 +58,27 @@ TEST_CASE("the cut line keeps its allowance from the sew line on wavy outlines, 
         CHECK(ray_to_outline(cut, middle, {d.y(), -d.x()}).value() >= 10 - 1e-3);
     }
 }
+
+TEST_CASE("a hem's ends are the mirror images of the seams beside it") {
+    // A trapezium, 100 wide at the foot and 60 or 140 at the rim; folded about the rim, the hem must lie on the piece.
+    for (double half : {30.0, 50.0, 70.0}) {
+        const Polygon sew{{-50, 0}, {50, 0}, {half, 120}, {-half, 120}};
+        const Polygon cut = cut_line(sew, {10, 10, 30, 10}, Corner::mitre, 2, {0, 0, 1, 0});
+        CHECK(outline_crossings(cut).empty());
+        for (double below : {0.5, 10.0, 20.0, 29.5}) {
+            const auto right_end = [&](double y) { return ray_to_outline(cut, {0, y}, {1, 0}).value(); };
+            const auto left_end = [&](double y) { return ray_to_outline(cut, {0, y}, {-1, 0}).value(); };
+            INFO("rim " << 2 * half << " mm, " << below << " mm from the fold");
+            CHECK(right_end(120 + below) == Approx(right_end(120 - below)).margin(2e-3));
+            CHECK(left_end(120 + below) == Approx(left_end(120 - below)).margin(2e-3));
+        }
+        CHECK(bounding_box(cut).high.y() == Approx(150).margin(1e-3));
+    }
+    // Two hems with a dart between them: neither end takes away cloth of the other hem.
+    const Polygon darted{{0, 0}, {100, 0}, {100, 80}, {52, 80}, {50, 20}, {48, 80}, {0, 80}};
+    const Polygon cut = cut_line(darted, {10, 10, 30, 10, 10, 30, 10}, Corner::mitre, 2, {0, 0, 1, 0, 0, 1, 0});
+    CHECK(contains(cut, {5, 109}));
+    CHECK(contains(cut, {95, 109}));
+    CHECK(contains(cut, {40, 109}));
+    CHECK(contains(cut, {60, 109}));
+}

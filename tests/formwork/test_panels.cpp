@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <set>
 
 #include "arcsim/base/error.hpp"
 #include "formwork/flatten/flatten.hpp"
@@ -97,6 +98,17 @@ TEST_CASE("notches tell a piece's seams apart and cannot be read backwards") {
         CHECK(nearest * a.rest_length > 0.005);   // reversed, every notch is off by more than 5 mm
         for (const PanelSeam& b : set.seams)
             if (&a != &b && !b.is_rim()) CHECK(a.style != b.style);
+    }
+}
+
+TEST_CASE("hundreds of seams have notches of their own, also when read backwards") {
+    std::set<std::vector<NotchShape>> seen;
+    for (int i = 0; i < 300; ++i) {
+        const NotchStyle style = notch_style(i);
+        std::vector<NotchShape> backwards(style.strokes.rbegin(), style.strokes.rend());
+        CHECK(seen.insert(style.strokes).second);
+        CHECK((backwards == style.strokes || !seen.count(backwards)));
+        CHECK(style.width_mm() <= 25);
     }
 }
 

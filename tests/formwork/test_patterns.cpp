@@ -19,7 +19,7 @@ TEST_CASE("patterns are written where PATTERN_FOLDER says", "[.write-patterns]")
         info.name = name;
         const PatternFiles files = write_patterns(set, s, make_pattern(set, s, info), std::filesystem::path(folder) / name);
         INFO(name);
-        CHECK(files.names.size() == 10 + set.panels.size());
+        CHECK(files.names.size() == 10 + params.more_papers.size() + set.panels.size());
         CHECK(files.utilisation > 0.1);
     };
     write("sphere", cut_surfaces::sphere_in_octants(16, 0.15), {});
@@ -37,5 +37,6 @@ TEST_CASE("patterns are written where PATTERN_FOLDER says", "[.write-patterns]")
     for (int ring = 12; ring > 5; --ring) slit.insert({1 + (ring - 1) * 24, 1 + (ring - 2) * 24});
     PanelParams dart;
     dart.paper = Paper::letter;
+    dart.more_papers = {"A0"};
     write("dart", cut_surfaces::cut_by_labels(cap, std::vector<int>(cap.n_faces(), 0), slit), dart);
 }

@@ -88,6 +88,8 @@ def check_svg(folder, panels, seams):
     labels = " ".join(written + drawn)
     for panel in panels:
         check(f"{panel['name']} of {len(panels)}" in labels, f"svg: label of {panel['name']}")
+    styles = [row["first_notch"] for row in seams if row["panel_b"]]
+    check(len(set(styles)) == len(styles), "seams: every seam has notches of its own")
     for seam in seams:   # on both pieces: what it is sewn to, and how long it is
         sides = [seam["panel_a"], seam["panel_b"]] if seam["panel_b"] else [""]
         for side in sides:
@@ -246,6 +248,7 @@ def main():
             check_astm(place, panels)
             check_pdf(place, paper, panels, name)
             check_tables(place, panels, seams)
+            check((place / "panels-a0.pdf").exists() == (name == "dart"), "pdf: one file per paper that was asked for")
             check_sewn_rest(place, panels)
             check(not list(place.glob("*.tmp*")), "no temporary files are left")
     print("no failures" if not failures else f"{len(failures)} failures")
