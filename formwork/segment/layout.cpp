@@ -1,19 +1,11 @@
 #include "formwork/segment/layout.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-
-#include "arcsim/base/error.hpp"
-#include "formwork/flatten/flatten.hpp"
+#include <map>
 
 namespace formwork {
-namespace {
-
-constexpr double hopeless = 2.5;   // times the allowed stretch: such an estimate needs no flattening to be believed
-constexpr double usual_calibration = 0.75;   // measured stretch over estimate, typical of panels of mixed shape
-constexpr int estimate_cells = 400;
-
-}  // namespace
 
 Layout::Layout(const Surface& input, const std::vector<double>& theta, const std::vector<DirectionData>& data,
                const SplitRules& rules, const LayoutLimits& limits)
@@ -101,7 +93,7 @@ void Layout::keep_one_side(const Vector3d& point, const Vector3d& normal) {
     std::vector<double> side(panels_.size(), 0);
     for (int f = 0; f < cut_.surface().n_faces(); ++f)
         side[panel_[f]] += arcsim::face_area(cut_.surface(), f) * normal.dot(arcsim::face_centroid(cut_.surface(), f) - point);
-    for (std::size_t p = 0; p < panels_.size(); ++p) panels_[p].frozen = side[p] < 0;
+    for (std::size_t p = 0; p < panels_.size(); ++p) panels_[p].frozen = panels_[p].frozen || side[p] < 0;
 }
 
 std::vector<char> Layout::kept_faces() const {
@@ -119,54 +111,15 @@ void Layout::merge_images(const std::vector<int>& face_image) {
             try_merge(pair.first, pair.second, border);
 }
 
-/// Everything about a panel but its flat pattern; its stretch is the estimate times `calibration`.
-PanelQuality Layout::look_at(const PanelPatch& patch, double calibration) const {
-    PanelQuality q;
-    q.is_disk = patch.is_disk();
-    q.area = patch.area();
-    q.p95 = std::numeric_limits<double>::infinity();
-    if (!q.is_disk) return q;
-    q.corners = static_cast<int>(corner_nodes(patch).size());
-    q.width = patch_width(patch);
-    q.estimate = StretchModel(patch, estimate_cells).whole().p95;
-    q.p95 = calibration * q.estimate;
-    return q;
-}
-
-void Layout::flatten(const PanelPatch& patch, PanelQuality& q) const {
-    if (!q.is_disk || q.is_flattened || q.p95 > hopeless * rules_.max_distortion) return;
-    q.is_flattened = true;
-    if (q.estimate < 1e-3 * rules_.max_distortion) return;
-    try {
-        q.p95 = flatten_disk(patch.surface, FlattenParams::fast()).stretch.p95;
-    } catch (const arcsim::NumericalError&) {   // cannot be laid flat without folds: as bad as it gets
-        q.p95 = std::max(q.estimate, hopeless * rules_.max_distortion);
-    }
-}
-
 const PanelQuality& Layout::quality(int panel) {
     Panel& p = panels_[panel];
     if (!p.assessed) {
         const PanelPatch patch = extract_patch(cut_, faces_of(panel));
-        p.quality = look_at(patch, usual_calibration);
-        flatten(patch, p.quality);
+        p.quality = look_at(patch, rules_, calibration_of({}));
+        formwork::measure_flat(patch, rules_, p.quality);
         p.assessed = true;
     }
     return p.quality;
-}
-
-bool Layout::is_valid(const PanelQuality& q) const {
-    return q.is_disk && q.p95 <= rules_.max_distortion && q.corners <= rules_.max_corners;
-}
-
-/// How much stretch beyond the bound a panel holds: area times the relative excess, m².
-double Layout::excess(const PanelQuality& q) const {
-    if (!q.is_disk) return 10 * q.area;
-    return q.area * std::max(0., q.p95 / rules_.max_distortion - 1);
-}
-
-double Layout::calibration(const PanelQuality& q) const {
-    return q.is_flattened && q.estimate > 0 ? std::clamp(q.p95 / q.estimate, 0.4, 1.3) : usual_calibration;
 }
 
 std::vector<std::string> Layout::violations() {

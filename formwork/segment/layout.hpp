@@ -5,24 +5,13 @@
 #include <vector>
 
 #include "formwork/segment/cut_mesh.hpp"
-#include "formwork/segment/panel_split.hpp"
+#include "formwork/segment/panel_quality.hpp"
 
 namespace formwork {
 
 /// What a finished layout must meet, besides the rules of a single cut.
 struct LayoutLimits {
     int max_panels = 24;
-};
-
-/// What is known about one panel.
-struct PanelQuality {
-    bool is_disk = false;
-    double area = 0;      // m²
-    double estimate = 0;  // of the stretch, before flattening
-    bool is_flattened = false;   // p95 is measured, not derived from the estimate
-    double p95 = 0;       // stretch of the flat pattern that 95 % of the area stays below
-    int corners = 0;
-    double width = 0;     // m
 };
 
 /// Panels of a surface that is being cut. Few panels, not a quad layout: curves are added where they lower the
@@ -40,8 +29,10 @@ public:
     /// Makes the curve (of the cut mesh's numbering) a seam before the search; one that is `given` stays.
     /// @returns false, and nothing is marked, when the curve crosses itself
     [[nodiscard]] bool add_curve(const Curve& curve, bool given);
-    /// Open, refine, prune.
+    /// Opens and refines, prunes, improves; then lays groups around panels out of bounds out anew.
     void search();
+    /// Splits what is no disk or does not lie flat within the bound. @returns whether a seam was added
+    bool refine();
     /// Leaves out of the search every panel that lies on the far side of a plane.
     void keep_one_side(const Vector3d& point, const Vector3d& normal);
     /// Per face: 1 where the search went on.
@@ -60,18 +51,15 @@ public:
 private:
     struct Panel {
         bool alive = true, assessed = false, stuck = false, frozen = false;
+        bool parked = false;   // left alone while a group of others is laid out anew
         PanelQuality quality;
     };
 
     void relabel(int panel);
     std::vector<int> faces_of(int panel) const;
     SurfaceField field_on(const PanelPatch& patch) const;
-    PanelQuality look_at(const PanelPatch& patch, double calibration) const;
-    void flatten(const PanelPatch& patch, PanelQuality& q) const;
     const PanelQuality& quality(int panel);
-    double excess(const PanelQuality& q) const;
-    bool is_valid(const PanelQuality& q) const;
-    double calibration(const PanelQuality& q) const;
+    double excess(const PanelQuality& q) const { return excess_of(q, rules_); }
 
     struct Trial {
         Curve curve;   // numbers of the cut mesh
@@ -81,11 +69,10 @@ private:
         double excess = 0;         // of the pieces together
         bool is_allowed = false;   // disks with few corners
     };
-    std::vector<Trial> try_splits(const PanelPatch& patch, const PanelQuality& q, int count) const;
-    void flatten(Trial& trial) const;
+    std::vector<Trial> try_splits(const PanelPatch& patch, const PanelQuality& q, SplitRules rules, int count) const;
+    void measure_flat(Trial& trial) const;
     bool split(int panel, bool anyhow);
     int worst_panel();
-    void refine();
 
     struct Border {
         double length = 0;
@@ -98,6 +85,17 @@ private:
     bool prune();
     bool resplit(int a, int b, const Border& border);
     bool improve();
+
+    struct State {   // to go back to
+        CutMesh cut;
+        std::vector<int> panel;
+        std::vector<Panel> panels;
+    };
+    void restore(const State& s);
+    double cost();
+    std::vector<std::vector<int>> groups_around(int seed);
+    bool rework(const std::vector<int>& group);
+    void rework();
 
     const Surface& input_;
     SplitRules rules_;

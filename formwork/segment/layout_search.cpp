@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "formwork/segment/layout.hpp"
 
 namespace formwork {
 
-std::vector<Layout::Trial> Layout::try_splits(const PanelPatch& patch, const PanelQuality& q, int count) const {
+std::vector<Layout::Trial> Layout::try_splits(const PanelPatch& patch, const PanelQuality& q, SplitRules rules, int count) const {
     std::vector<Trial> trials;
-    SplitRules rules = rules_;
-    rules.calibration = calibration(q);
+    rules.calibration = calibration_of(q);
     for (const Split& split : best_splits(patch, field_on(patch), rules, count)) {
         Trial trial;
         trial.curve = split.curve;
@@ -26,7 +24,7 @@ std::vector<Layout::Trial> Layout::try_splits(const PanelPatch& patch, const Pan
         if (q.is_disk) {
             trial.pieces = std::move(pieces);
             for (const PanelPatch& piece : trial.pieces) {
-                trial.qualities.push_back(look_at(piece, rules.calibration));
+                trial.qualities.push_back(look_at(piece, rules_, rules.calibration));
                 trial.excess += excess(trial.qualities.back());
                 trial.is_allowed = trial.is_allowed && trial.qualities.back().is_disk &&
                                    trial.qualities.back().corners <= rules_.max_corners;
@@ -37,10 +35,10 @@ std::vector<Layout::Trial> Layout::try_splits(const PanelPatch& patch, const Pan
     return trials;
 }
 
-void Layout::flatten(Trial& trial) const {
+void Layout::measure_flat(Trial& trial) const {
     trial.excess = 0;
     for (std::size_t i = 0; i < trial.pieces.size(); ++i) {
-        flatten(trial.pieces[i], trial.qualities[i]);
+        formwork::measure_flat(trial.pieces[i], rules_, trial.qualities[i]);
         trial.excess += excess(trial.qualities[i]);
     }
 }
@@ -57,7 +55,7 @@ bool Layout::split(int panel, bool anyhow) {
             if (p.b >= 0) p.b = patch.node[p.b];
         }
     } else {
-        const auto trials = try_splits(patch, quality(panel), 3);
+        const auto trials = try_splits(patch, quality(panel), rules_, 3);
         if (trials.empty()) return false;
         const double before = excess(quality(panel));
         const auto value = [&](const Trial& t) { return (t.is_allowed ? 1 : 0.1) * (before - t.excess); };
@@ -74,7 +72,7 @@ int Layout::worst_panel() {
     int worst = -1;
     double most = 0;
     for (int p = 0; p < static_cast<int>(panels_.size()); ++p) {
-        if (!panels_[p].alive || panels_[p].stuck || panels_[p].frozen) continue;
+        if (!panels_[p].alive || panels_[p].stuck || panels_[p].frozen || panels_[p].parked) continue;
         const PanelQuality& q = quality(p);
         if (q.is_disk && q.p95 <= rules_.max_distortion) continue;
         if (!q.is_disk) return p;
@@ -86,14 +84,17 @@ int Layout::worst_panel() {
     return worst;
 }
 
-void Layout::refine() {
+bool Layout::refine() {
+    bool any = false;
     for (int p = worst_panel(); p >= 0; p = worst_panel()) {
         const bool is_disk = quality(p).is_disk;
-        if (is_disk && n_panels() >= limits_.max_panels) return;
-        if (split(p, false)) continue;
-        if (!is_disk && split(p, true)) continue;
-        panels_[p].stuck = true;
+        if (is_disk && n_panels() >= limits_.max_panels) break;
+        if (split(p, false) || (!is_disk && split(p, true)))
+            any = true;
+        else
+            panels_[p].stuck = true;
     }
+    return any;
 }
 
 std::map<std::pair<int, int>, Layout::Border> Layout::borders() const {
@@ -132,9 +133,9 @@ bool Layout::try_merge(int a, int b, const Border& border) {
     const PanelPatch patch = joined(a, b, border, faces);
     if (!patch.is_disk() || static_cast<int>(corner_nodes(patch).size()) > rules_.max_corners) return false;
     const double allowed = std::max(rules_.max_distortion, a == b ? quality(a).p95 : 0.);
-    PanelQuality q = look_at(patch, std::min(calibration(quality(a)), calibration(quality(b))));
+    PanelQuality q = look_at(patch, rules_, std::min(calibration_of(quality(a)), calibration_of(quality(b))));
     if (q.p95 > 1.4 * allowed) return false;
-    flatten(patch, q);
+    formwork::measure_flat(patch, rules_, q);
     if (q.p95 > allowed) return false;
     for (const auto& [i, j] : border.edges) cut_.unmark_seam(i, j);
     for (int f : faces) panel_[f] = a;
@@ -153,7 +154,7 @@ bool Layout::prune() {
         for (const auto& [pair, border] : all) order.emplace_back(-border.length, pair);
         std::sort(order.begin(), order.end());
         for (const auto& [length, pair] : order) {
-            if (failed.count(pair) || all.at(pair).is_given) continue;
+            if (failed.count(pair) || all.at(pair).is_given || panels_[pair.first].parked || panels_[pair.second].parked) continue;
             const auto [a, b] = pair;
             if (try_merge(a, b, all.at(pair))) {
                 merged = any = true;
@@ -175,8 +176,8 @@ bool Layout::resplit(int a, int b, const Border& border) {
     const PanelPatch patch = joined(a, b, border, faces);
     if (!patch.is_disk()) return false;
     const PanelQuality &qa = quality(a), &qb = quality(b);
-    const double scale = std::sqrt(calibration(qa) * calibration(qb));
-    auto trials = try_splits(patch, look_at(patch, scale), 3);
+    const double scale = std::sqrt(calibration_of(qa) * calibration_of(qb));
+    auto trials = try_splits(patch, look_at(patch, rules_, scale), rules_, 3);
     const double old_excess = excess(qa) + excess(qb);
     const double length_weight = 0.05 * std::sqrt(patch.area());   // m² of excess per m of seam
     const double old_cost = old_excess + length_weight * border.length;
@@ -184,7 +185,7 @@ bool Layout::resplit(int a, int b, const Border& border) {
     std::erase_if(trials, [&](const Trial& t) { return !t.is_allowed || cost(t) > 0.95 * old_cost; });
     if (trials.empty()) return false;
     Trial& best = *std::min_element(trials.begin(), trials.end(), [&](const Trial& s, const Trial& t) { return cost(s) < cost(t); });
-    flatten(best);
+    measure_flat(best);
     if (cost(best) > 0.97 * old_cost || best.excess > old_excess + 1e-12) return false;
     for (const auto& [i, j] : border.edges) cut_.unmark_seam(i, j);
     cut_.insert_seam(best.curve);   // if it failed, the two stay one panel, to be looked at again
@@ -228,6 +229,7 @@ void Layout::search() {
         for (Panel& p : panels_) p.stuck = false;
         prune();
     }
+    rework();
 }
 
 }  // namespace formwork

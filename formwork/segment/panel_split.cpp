@@ -152,11 +152,12 @@ public:
         std::stable_sort(found_.begin(), found_.end(), [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
         std::vector<Split> best;
         std::vector<Vector3d> middles;
+        const double spacing = rules_.spacing > 0 ? rules_.spacing : 0.25 * rules_.min_width;
         for (std::size_t i = 0; i < found_.size() && i < 40 && static_cast<int>(best.size()) < count; ++i) {
             const auto& samples = found_[i].path.samples;
             const Vector3d middle = position(patch_.surface, graph_.point(samples[samples.size() / 2]));
             const bool is_new = std::none_of(middles.begin(), middles.end(), [&](const Vector3d& m) {
-                return (m - middle).norm() < 0.25 * rules_.min_width;
+                return (m - middle).norm() < spacing;
             });
             if (!is_new) continue;
             if (auto split = finish(found_[i])) {

@@ -15,6 +15,7 @@ struct SplitRules {
     double max_distortion = 0.05;   // of the flat pattern; sets what counts as flat enough
     int max_corners = 6;
     int trials = 24;                // seeds of candidate curves per panel
+    double spacing = 0;             // m between the middles of different cuts; 0: a quarter of min_width
     double calibration = 1;         // stretch of the panel laid flat over its estimate: corrects the pieces' estimates
 };
 

@@ -1,0 +1,142 @@
+// Ruin and recreate: a panel and some of its neighbours are joined and laid out anew, beginning with another cut. What
+// single joins and splits cannot reach, two long halves of an ear in place of rings and a cap, is found this way.
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "formwork/segment/layout.hpp"
+
+namespace formwork {
+namespace {
+
+constexpr int first_cuts = 5;          // that a new layout of a group is begun with
+constexpr int most_groups = 120;       // tried in all
+constexpr int most_neighbours = 3;     // of a panel, longest border first, that are joined one or two at a time
+constexpr double far_apart = 0.12;     // of the group's size: distance between the first cuts' middles
+constexpr double largest_group = 0.6;  // of the surface
+
+}  // namespace
+
+/// Of the whole layout, in panels: what its panels cost, and a panel for every sqrt(area) of seam.
+double Layout::cost() {
+    const Surface& s = cut_.surface();
+    double length = 0, area = 0, sum = 0;
+    for (int f = 0; f < s.n_faces(); ++f) {
+        if (panels_[panel_[f]].frozen) continue;
+        area += arcsim::face_area(s, f);
+        for (int k = 0; k < 3; ++k) {
+            const int a = s.faces[f][k], b = s.faces[f][(k + 1) % 3];
+            if (a < b && cut_.is_seam(a, b)) length += (s.x[a] - s.x[b]).norm();
+        }
+    }
+    for (int p = 0; p < static_cast<int>(panels_.size()); ++p)
+        if (panels_[p].alive && !panels_[p].frozen) sum += panel_cost(quality(p), rules_);
+    return sum + length / std::sqrt(area);
+}
+
+/// The panel with one, two or all of its neighbours.
+std::vector<std::vector<int>> Layout::groups_around(int seed) {
+    std::vector<std::pair<double, int>> next;
+    for (const auto& [pair, border] : borders()) {
+        if (pair.first == pair.second || border.is_given || (pair.first != seed && pair.second != seed)) continue;
+        next.emplace_back(-border.length, pair.first == seed ? pair.second : pair.first);
+    }
+    std::sort(next.begin(), next.end());
+    const std::size_t n = std::min<std::size_t>(next.size(), most_neighbours);
+    std::vector<std::vector<int>> groups;
+    for (std::size_t i = 0; i < n; ++i) groups.push_back({seed, next[i].second});
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = i + 1; j < n; ++j) groups.push_back({seed, next[i].second, next[j].second});
+    if (next.size() > 2) {
+        std::vector<int> small{seed};
+        for (const auto& [length, p] : next)
+            if (quality(p).area < 6 * quality(seed).area) small.push_back(p);
+        if (small.size() > 3) groups.push_back(small);
+    }
+    return groups;
+}
+
+/// Joins the panels of a group and lays them out anew; keeps the cheapest result, if it is cheaper than what was there.
+bool Layout::rework(const std::vector<int>& group) {
+    double area = 0, whole = 0;
+    for (const Panel& p : panels_)
+        if (p.alive && !p.frozen) whole += p.quality.area;
+    for (int p : group) area += quality(p).area;
+    if (area > largest_group * whole) return false;
+    const double before = cost();
+    const State old{cut_, panel_, panels_};
+    const std::set<int> members(group.begin(), group.end());
+    for (const auto& [pair, border] : borders())
+        if (!border.is_given && pair.first != pair.second && members.count(pair.first) && members.count(pair.second))
+            for (const auto& [i, j] : border.edges) cut_.unmark_seam(i, j);
+    const int a = group[0];
+    for (int& p : panel_)
+        if (members.count(p)) p = a;
+    for (int p : group) panels_[p].alive = p == a;
+    for (Panel& p : panels_) p.parked = true;
+    relabel(a);
+    const PanelPatch patch = extract_patch(cut_, faces_of(a));
+    std::vector<Curve> cuts;
+    if (patch.is_disk()) {
+        SplitRules rules = rules_;
+        rules.spacing = far_apart * std::sqrt(area);
+        for (Trial& t : try_splits(patch, quality(a), rules, first_cuts)) cuts.push_back(std::move(t.curve));
+    } else {
+        cuts.emplace_back();
+    }
+    const State joined{cut_, panel_, panels_};
+    std::optional<State> best;
+    double least = before - 1e-6;
+    for (const Curve& curve : cuts) {
+        restore(joined);
+        if (!curve.empty()) {
+            if (cut_.insert_seam(curve).empty()) continue;
+            relabel(a);
+        }
+        refine();
+        prune();
+        const double now = cost();
+        if (now >= least) continue;
+        least = now;
+        best.emplace(State{cut_, panel_, panels_});
+    }
+    restore(best ? *best : old);
+    for (Panel& p : panels_) p.parked = false;
+    return best.has_value();
+}
+
+void Layout::restore(const State& s) {
+    cut_ = s.cut;
+    panel_ = s.panel;
+    panels_ = s.panels;
+}
+
+/// Groups around every panel that is out of bounds, the worst first, until all keep them or nothing helps.
+void Layout::rework() {
+    int left = most_groups;
+    std::set<std::vector<std::pair<int, double>>> tried;   // panels of a group and their areas
+    for (bool changed = true; changed && left > 0;) {
+        changed = false;
+        std::vector<std::pair<double, int>> order;
+        for (int p = 0; p < static_cast<int>(panels_.size()); ++p)
+            if (panels_[p].alive && !panels_[p].frozen && !keeps_bounds(quality(p), rules_))
+                order.emplace_back(-panel_cost(quality(p), rules_), p);
+        std::sort(order.begin(), order.end());
+        for (const auto& [weight, seed] : order) {
+            for (const auto& group : groups_around(seed)) {
+                std::vector<std::pair<int, double>> key;
+                for (int p : group) key.emplace_back(p, quality(p).area);
+                if (left == 0 || !tried.insert(key).second) continue;
+                --left;
+                if (!rework(group)) continue;
+                changed = true;
+                break;
+            }
+            if (changed) break;
+        }
+    }
+}
+
+}  // namespace formwork

@@ -1,0 +1,67 @@
+#include "formwork/segment/panel_quality.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "arcsim/base/error.hpp"
+#include "formwork/flatten/flatten.hpp"
+
+namespace formwork {
+namespace {
+
+constexpr double hopeless = 2.5;   // times the allowed stretch: such an estimate needs no flattening to be believed
+constexpr double usual_calibration = 0.75;   // measured stretch over estimate, typical of panels of mixed shape
+constexpr int estimate_cells = 400;
+
+}  // namespace
+
+PanelQuality look_at(const PanelPatch& patch, const SplitRules& rules, double calibration) {
+    PanelQuality q;
+    q.is_disk = patch.is_disk();
+    q.area = patch.area();
+    q.p95 = std::numeric_limits<double>::infinity();
+    if (!q.is_disk) return q;
+    q.corners = static_cast<int>(corner_nodes(patch).size());
+    q.width = patch_width(patch);
+    q.shape = outline_shape(patch, rules.min_width);
+    q.estimate = StretchModel(patch, estimate_cells).whole().p95;
+    q.p95 = calibration * q.estimate;
+    return q;
+}
+
+void measure_flat(const PanelPatch& patch, const SplitRules& rules, PanelQuality& q) {
+    if (!q.is_disk || q.is_flattened || q.p95 > hopeless * rules.max_distortion) return;
+    q.is_flattened = true;
+    if (q.estimate < 1e-3 * rules.max_distortion) return;
+    try {
+        q.p95 = flatten_disk(patch.surface, FlattenParams::fast()).stretch.p95;
+    } catch (const arcsim::NumericalError&) {   // cannot be laid flat without folds: as bad as it gets
+        q.p95 = std::max(q.estimate, hopeless * rules.max_distortion);
+    }
+}
+
+double calibration_of(const PanelQuality& q) {
+    return q.is_flattened && q.estimate > 0 ? std::clamp(q.p95 / q.estimate, 0.4, 1.3) : usual_calibration;
+}
+
+double excess_of(const PanelQuality& q, const SplitRules& rules) {
+    if (!q.is_disk) return 10 * q.area;
+    return q.area * std::max(0., q.p95 / rules.max_distortion - 1);
+}
+
+bool keeps_bounds(const PanelQuality& q, const SplitRules& rules) {
+    return q.is_disk && q.p95 <= rules.max_distortion && q.corners <= rules.max_corners && q.width >= rules.min_width;
+}
+
+double panel_cost(const PanelQuality& q, const SplitRules& rules) {
+    constexpr double violation = 10, most_excess = 10, tip = 0.5, least_tip = 0.4 /* rad */, inner_corner = 0.3;
+    if (!q.is_disk) return 10 * violation;
+    double cost = 1;
+    if (q.p95 > rules.max_distortion) cost += violation + violation * std::min(most_excess, q.p95 / rules.max_distortion - 1);
+    if (q.corners > rules.max_corners) cost += violation;
+    if (q.width < rules.min_width) cost += violation;
+    if (q.shape.sharpest < least_tip) cost += tip * (2 - q.shape.sharpest / least_tip);
+    return cost + inner_corner * q.shape.inner_corners;
+}
+
+}  // namespace formwork

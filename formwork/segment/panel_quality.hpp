@@ -1,0 +1,38 @@
+#pragma once
+
+#include "formwork/segment/panel_patch.hpp"
+#include "formwork/segment/panel_split.hpp"
+
+namespace formwork {
+
+/// What is known about one panel, or about a panel that a cut or a join would make.
+struct PanelQuality {
+    bool is_disk = false;
+    double area = 0;             // m²
+    double estimate = 0;         // of the stretch, before flattening
+    bool is_flattened = false;   // p95 is measured, not derived from the estimate
+    double p95 = 0;              // stretch of the flat pattern that 95 % of the area stays below
+    int corners = 0;
+    double width = 0;            // m
+    OutlineShape shape;
+};
+
+/// Everything but the flat pattern; the stretch is the estimate times `calibration`.
+PanelQuality look_at(const PanelPatch& patch, const SplitRules& rules, double calibration);
+
+/// Replaces the derived stretch by that of a short flattening, unless it is hopeless anyway.
+void measure_flat(const PanelPatch& patch, const SplitRules& rules, PanelQuality& q);
+
+/// Measured stretch over estimate; a typical value for panels that were not laid flat.
+double calibration_of(const PanelQuality& q);
+
+/// How much stretch beyond the bound a panel holds: area times the relative excess, m².
+double excess_of(const PanelQuality& q, const SplitRules& rules);
+
+/// A disk with few corners that lies flat within the bound.
+bool keeps_bounds(const PanelQuality& q, const SplitRules& rules);
+
+/// What a panel costs in a layout, in panels: 1, and more for bounds that are not kept, thin tips and inner corners.
+double panel_cost(const PanelQuality& q, const SplitRules& rules);
+
+}  // namespace formwork
