@@ -29,6 +29,7 @@ std::unique_ptr<LinearSolver> make_linear_solver(SolverKind kind) {
         case SolverKind::supernodal: return make_supernodal();
         case SolverKind::single: return make_single();
         case SolverKind::mixed: return make_mixed();
+        case SolverKind::pcg: return make_pcg();
     }
     return nullptr;
 }

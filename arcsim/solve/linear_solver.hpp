@@ -58,7 +58,8 @@ enum class SolverKind {
     eigen_ldlt,
     supernodal,   // our own Cholesky
     single,       // the same in single precision: a preconditioner
-    mixed         // conjugate gradients on `single`, to the digits of `cholmod`
+    mixed,        // conjugate gradients on `single`, to the digits of `cholmod`
+    pcg           // conjugate gradients on an incomplete factor
 };
 std::unique_ptr<LinearSolver> make_linear_solver(SolverKind kind);
 

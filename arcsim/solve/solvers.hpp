@@ -12,5 +12,6 @@ std::unique_ptr<LinearSolver> make_eigen_ldlt();
 std::unique_ptr<LinearSolver> make_supernodal();
 std::unique_ptr<LinearSolver> make_single();
 std::unique_ptr<LinearSolver> make_mixed();
+std::unique_ptr<LinearSolver> make_pcg();
 
 }  // namespace arcsim

@@ -13,7 +13,8 @@ constexpr std::array tangent_names{
 
 constexpr std::array solver_names{
     EnumName{SolverKind::mixed, "mixed", "a factor in single precision, refined to double; the exact one where that fails"},
-    EnumName{SolverKind::cholmod, "cholmod", "a factor in double precision"}};
+    EnumName{SolverKind::cholmod, "cholmod", "a factor in double precision"},
+    EnumName{SolverKind::pcg, "pcg", "conjugate gradients on an incomplete factor: least memory"}};
 
 }  // namespace
 

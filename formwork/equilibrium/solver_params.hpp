@@ -16,11 +16,12 @@ inline constexpr std::array solver_method_names{
     arcsim::EnumName{SolverMethod::dynamic_relaxation, "dynamic_relaxation", "explicit steps with kinetic damping"},
     arcsim::EnumName{SolverMethod::projective, "projective", "one constant factor and L-BFGS: quick to a rough shape"}};
 
-enum class LinearSolverChoice { cholmod, umfpack, eigen };
+enum class LinearSolverChoice { cholmod, umfpack, eigen, pcg };
 inline constexpr std::array linear_solver_names{
     arcsim::EnumName{LinearSolverChoice::cholmod, "cholmod", "supernodal Cholesky of the symmetric tangent"},
     arcsim::EnumName{LinearSolverChoice::umfpack, "umfpack", "LU of the unsymmetric tangent"},
-    arcsim::EnumName{LinearSolverChoice::eigen, "eigen", "Eigen's LDLT, for comparison"}};
+    arcsim::EnumName{LinearSolverChoice::eigen, "eigen", "Eigen's LDLT, for comparison"},
+    arcsim::EnumName{LinearSolverChoice::pcg, "pcg", "conjugate gradients on an incomplete factor, for comparison"}};
 
 /// How the equilibrium is found.
 struct SolverParams {

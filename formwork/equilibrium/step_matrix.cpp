@@ -10,7 +10,11 @@ namespace {
 SolverKind solver_for(const EquilibriumProblem& p, const StaticSystem& s) {
     if (p.solver.linear_solver == LinearSolverChoice::umfpack || s.membrane().law().is_strongly_unsymmetric())
         return SolverKind::umfpack;
-    return p.solver.linear_solver == LinearSolverChoice::eigen ? SolverKind::eigen_ldlt : SolverKind::cholmod;
+    switch (p.solver.linear_solver) {
+        case LinearSolverChoice::eigen: return SolverKind::eigen_ldlt;
+        case LinearSolverChoice::pcg: return SolverKind::pcg;
+        default: return SolverKind::cholmod;
+    }
 }
 
 VectorXd lumped_mass(const EquilibriumProblem& p, const MembraneForce& membrane) {

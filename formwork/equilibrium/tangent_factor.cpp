@@ -11,6 +11,7 @@ SolverKind kind_of(LinearSolverChoice c) {
     switch (c) {
         case LinearSolverChoice::umfpack: return SolverKind::umfpack;
         case LinearSolverChoice::eigen: return SolverKind::eigen_ldlt;
+        case LinearSolverChoice::pcg: return SolverKind::pcg;
         case LinearSolverChoice::cholmod: break;
     }
     return SolverKind::cholmod;

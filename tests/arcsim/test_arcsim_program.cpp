@@ -191,6 +191,37 @@ TEST_CASE("a hanging sheet stays inside its strain limits, resumes to the same b
     }
 }
 
+TEST_CASE("recorded motions, velocities in the mesh, polygons and disabled physics do what the format says") {
+    using nlohmann::json;
+    const fs::path dir = fresh_folder("format");
+    json scene = json::parse(text_of(changed_scene("strip_iso", dir, {})));
+    scene["frame_time"] = 0.05;
+    scene["frame_steps"] = 5;
+    scene["end_frame"] = 3;
+    const auto last_frame = [&](const std::string& name) {
+        std::ofstream(dir / (name + ".json")) << scene;
+        const Result r = run((dir / (name + ".json")).string() + " " + (dir / name).string() + " --quiet", dir);
+        INFO(name << r.errors);
+        REQUIRE(r.code == 0);
+        return text_of(dir / name / "0003_00.obj");
+    };
+    const std::string keyframes = last_frame("keyframes");
+    const json end = scene["motions"][0][1]["transform"]["translate"];
+    REQUIRE(scene["motions"][0][1]["time"] == 1);
+    std::ofstream(dir / "pull.mot") << "1\n2\n0 0 0  1 0 0 0\n" << end[0] << ' ' << end[1] << ' ' << end[2] << "  1 0 0 0\n";
+    scene["motions"] = {{"motfile", "pull.mot"}, {"fps", 1}};
+    CHECK(last_frame("recorded") == keyframes);
+
+    // `velocity` overwrites nv in a fresh run, and its default is rest.
+    std::ofstream(dir / "meshes" / "strip.obj", std::ios::app) << "v 1 1 1\nnv 5 5 5\n";
+    ClothMesh with_extra = parse_obj(last_frame("moving"), "frame");
+    CHECK(with_extra.v.back() == Vector3d(0, 0, 0));
+
+    scene["disable"].push_back("physics");
+    last_frame("still");
+    CHECK(read_obj(dir / "still" / "0003_00.obj").x == read_obj(dir / "still" / "0000_00.obj").x);
+}
+
 TEST_CASE("a morph draws the cloth to its target") {
     using nlohmann::json;
     const fs::path dir = fresh_folder("morph");

@@ -114,6 +114,23 @@ TEST_CASE("every linear solver agrees with Eigen's, in every fill order") {
     }
 }
 
+TEST_CASE("conjugate gradients on an incomplete factor solve to their tolerance, and find out that a matrix is indefinite") {
+    constexpr int n = 30;
+    const std::vector<Triangle> faces = grid_faces(n);
+    const BlockPattern p(n * n, faces, {}, fill_order(n * n, faces));
+    BlockMatrix A = random_matrix(p, faces, BlockMatrix::Kind::symmetric);
+    const VectorXd x = random_vector(3 * n * n);
+    VectorXd b;
+    A.multiply(x, b);
+    const auto solver = make_linear_solver(SolverKind::pcg);
+    solver->factorize(A);
+    CHECK((solver->solve(b) - x).norm() < 1e-9 * x.norm());
+    A.add_to_diagonal(77, -60);
+    CHECK_FALSE(solver->try_factorize(A));
+    CHECK(solver->breakdown().node == 77);
+    CHECK_THROWS_AS(solver->solve(b), NumericalError);
+}
+
 TEST_CASE("LU solves with the antisymmetric half") {
     constexpr int n = 9;
     const std::vector<Triangle> faces = grid_faces(n);
