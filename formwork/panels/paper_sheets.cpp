@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formwork/panels/glued_sheets.hpp"
 #include "formwork/panels/nest.hpp"
 
 namespace formwork {
 namespace {
-
-constexpr double between_pieces = 4;   // mm
-constexpr double between_sheets = 20;  // mm of the layout, so that no sheet shows what is on another
-constexpr int most_rows = 6;           // of a glued grid; longer patterns grow along their columns
 
 Vector2d paper_size(Paper paper) {   // mm
     switch (paper) {
@@ -20,14 +17,6 @@ Vector2d paper_size(Paper paper) {   // mm
         case Paper::a0: return {841, 1189};
     }
     return {210, 297};
-}
-
-PanelParams on_paper(const PanelParams& params, double width) {
-    PanelParams p = params;
-    p.roll_width_mm = width;
-    p.nest_gap_mm = between_pieces;
-    p.quarter_turns = true;
-    return p;
 }
 
 bool fits_on(const Vector2d& room, const Polygon& cut) {
@@ -50,44 +39,6 @@ std::vector<PatternPiece> chosen(const std::vector<PatternPiece>& pieces, const 
     std::vector<PatternPiece> some;
     for (int i : which) some.push_back(pieces[i]);
     return some;
-}
-
-std::string letters(int row) {
-    std::string name;
-    for (int r = row; r >= 0; r = r / 26 - 1) name.insert(name.begin(), static_cast<char>('A' + r % 26));
-    return name;
-}
-
-int rows_of(const Nest& nest, const Vector2d& room) {
-    return std::max(1, static_cast<int>(std::ceil((nest.width - sheet_overlap) / (room.y() - sheet_overlap))));
-}
-
-/// Sheets in rows and columns, each sharing its overlap with the next; only those that show a piece.
-std::vector<PaperSheet> grid_of_sheets(const std::vector<PatternPiece>& pieces, const Nest& nest, const Vector2d& room) {
-    const Vector2d step = room - Vector2d::Constant(sheet_overlap);
-    const int columns = std::max(1, static_cast<int>(std::ceil((nest.length - sheet_overlap) / step.x())));
-    const int rows = rows_of(nest, room);
-    const auto window = [&](int column, int row) {   // row 0 is at the top
-        const Vector2d low(column * step.x(), (rows - 1 - row) * step.y());
-        return Box{low, low + room};
-    };
-    std::vector<Polygon> laid(pieces.size());
-    for (std::size_t i = 0; i < pieces.size(); ++i)
-        for (const Vector2d& p : pieces[i].cut) laid[i].push_back(nest.placement[i](p));
-    const auto is_used = [&](int column, int row) {
-        if (column < 0 || row < 0 || column >= columns || row >= rows) return false;
-        const Box w = window(column, row);
-        const Polygon box{w.low, {w.high.x(), w.low.y()}, w.high, {w.low.x(), w.high.y()}};
-        return std::any_of(laid.begin(), laid.end(), [&](const Polygon& cut) { return overlap_area(cut, box) > 0; });
-    };
-    std::vector<PaperSheet> sheets;
-    const auto name = [&](int column, int row) { return is_used(column, row) ? letters(row) + std::to_string(column + 1) : std::string(); };
-    for (int row = 0; row < rows; ++row)
-        for (int column = 0; column < columns; ++column)
-            if (is_used(column, row))
-                sheets.push_back({name(column, row), window(column, row),
-                                  {name(column - 1, row), name(column + 1, row), name(column, row - 1), name(column, row + 1)}});
-    return sheets;
 }
 
 /// Pieces that each fit on a sheet, packed onto as few as first fit finds; `fits` tells whether some do on one.
@@ -123,25 +74,17 @@ PaperLayout lay_on_sheets(const std::vector<PatternPiece>& as_cut, const PanelPa
     double below = 0;   // y where the single sheets begin, downwards
     int row = 0;
     if (!large.empty()) {
-        const std::vector<PatternPiece> some = chosen(pieces, large);
-        double narrowest = 0;
-        for (const PatternPiece& piece : some) narrowest = std::max(narrowest, bounding_box(piece.cut).size().minCoeff());
-        Nest best;
-        for (int rows = 1; rows <= most_rows || best.placement.empty(); ++rows) {
-            const double width = rows * (room.y() - sheet_overlap) + sheet_overlap;
-            if (width < narrowest) continue;
-            const Nest nest = nest_pieces(some, on_paper(params, width));
-            std::vector<PaperSheet> sheets = grid_of_sheets(some, nest, room);
-            if (!best.placement.empty() && sheets.size() >= layout.sheets.size()) continue;
-            best = nest;
-            layout.sheets = std::move(sheets);
+        GluedGrids grids = lay_on_grids(chosen(as_cut, large), params, room);
+        for (std::size_t k = 0; k < large.size(); ++k) {
+            layout.pieces[large[k]] = std::move(grids.pieces[k]);
+            layout.placement[large[k]] = grids.placement[k];
         }
-        for (std::size_t k = 0; k < large.size(); ++k) layout.placement[large[k]] = best.placement[k];
-        row = rows_of(best, room);
-        below = -between_sheets;
+        layout.sheets = std::move(grids.sheets);
+        row = grids.rows;
+        below = grids.low - between_sheets;
     }
 
-    const auto nested = [&](const std::vector<int>& which) { return nest_pieces(chosen(pieces, which), on_paper(params, room.y())); };
+    const auto nested = [&](const std::vector<int>& which) { return nest_pieces(chosen(pieces, which), paper_nesting(params, room.y())); };
     const auto fits = [&](const std::vector<int>& which) {
         double area = 0;
         for (int i : which) area += pieces[i].cut_area;
@@ -157,7 +100,7 @@ PaperLayout lay_on_sheets(const std::vector<PatternPiece>& as_cut, const PanelPa
             layout.placement[packs[k][i]] = nest.placement[i];
             layout.placement[packs[k][i]].offset += low;
         }
-        layout.sheets.push_back({letters(row + line) + std::to_string(column + 1), {low, low + room}, {}});
+        layout.sheets.push_back({row_letters(row + line) + std::to_string(column + 1), {low, low + room}, {}});
     }
 
     Box all{layout.sheets.front().window};   // moved so that everything lies at and above zero
@@ -173,7 +116,7 @@ PaperLayout lay_on_plotter(const std::vector<PatternPiece>& pieces, const PanelP
     const double width = paper_size(Paper::a0).x() - 2 * page_margin;
     double narrowest = 0;
     for (const PatternPiece& piece : pieces) narrowest = std::max(narrowest, bounding_box(piece.cut).size().minCoeff());
-    const Nest nest = nest_pieces(pieces, on_paper(params, narrowest <= width ? width : params.roll_width_mm));
+    const Nest nest = nest_pieces(pieces, paper_nesting(params, narrowest <= width ? width : params.roll_width_mm));
     layout.pieces = pieces;
     layout.placement = nest.placement;
     layout.size = {nest.length, nest.width};

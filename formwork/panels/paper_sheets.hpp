@@ -30,9 +30,8 @@ struct PaperLayout {
 inline constexpr double page_margin = 10;     // mm that home printers cannot reach
 inline constexpr double sheet_overlap = 10;   // mm that neighbouring sheets share, to be glued
 
-/// Sheets of `paper`, not A0. A piece that would fit askew is turned. Pieces larger than a sheet are nested together
-/// on a grid of overlapping sheets, with the number of rows that needs the fewest; the others are packed whole on
-/// sheets of their own.
+/// Sheets of `paper`, not A0. A piece that would fit askew is turned. Pieces larger than a sheet are glued from grids
+/// of overlapping sheets (lay_on_grids); the others are packed whole on sheets of their own.
 PaperLayout lay_on_sheets(const std::vector<PatternPiece>& pieces, const PanelParams& params, Paper paper);
 
 /// All pieces on one page for a plotter: nested on the width of A0 (841 mm less margins) when they fit, else as

@@ -69,7 +69,7 @@ void draw_overview(PdfPage& page, const Pattern& pattern, const PaperLayout& lay
           std::string("Print at 100 %, no \"fit to page\". Measure the square below before you cut."),
           glued ? "Sheets overlap by " + arcsim::format_short(sheet_overlap) + " mm: lay cross on cross, diamond on diamond, as the map below shows."
                 : std::string("Every piece lies whole on its sheet: nothing has to be glued."),
-          std::string("Red: cut. Blue, dashed: sew and fold. Green: notches; join single to single, double to double."),
+          std::string("Red: cut. Blue, dashed: sew and fold. Green: notches; join like to like."),
           std::string("Pieces are seen from outside. Lay the arrow along the warp of the cloth: pieces are turned here to save paper.")})
         page.text({page_margin + 5, y -= 6}, 2.4, 0, text, false);
     draw_scale_box(page, {page_margin + 5, page_margin + 5});

@@ -137,7 +137,7 @@ void study(const std::string& scene_file, const std::string& folder, int refinem
                                 {"EA full", true, ThreadCompression::full, SeamModel::shared},
                                 {"kappa slack stitch", false, ThreadCompression::slack, SeamModel::stitch}};
     std::printf("variant,refinement,start,faces,seam_edges,shorter_edges,EA_N,iterations,residual,depth_mm,volume_ml,mean_abs_shear,"
-                "fabric_mean_abs_shear,max_force_N,max_push_N,gap_mm,starts_apart_mm,weight_error,cpu_s\n");
+                "fabric_mean_abs_shear,rotated_45_mean_abs_shear,rotated_45_fabric_mean_abs_shear,max_force_N,max_push_N,gap_mm,starts_apart_mm,weight_error,cpu_s\n");
     for (int level = 0; level <= refinements; ++level) {
         if (level > 0) bag = refined(bag, mesh.surface.faces);
         const std::vector<FlatPanel> panels = loose_panels(bag);
@@ -151,6 +151,8 @@ void study(const std::string& scene_file, const std::string& folder, int refinem
             std::vector<Vector3d> first;
             for (SewStart start : {SewStart::inflated, SewStart::rest}) {
                 p.start = start;
+                const bool is_default = &v == variants && start == SewStart::inflated;
+                p.compare = is_default ? std::vector<std::string>{"rotated_45"} : std::vector<std::string>{};
                 std::printf("%s,%d,%s,", v.name, level, start == SewStart::rest ? "rest" : "inflated");
                 try {
                     const SewResult r = sew_bag(input, p);
@@ -160,9 +162,11 @@ void study(const std::string& scene_file, const std::string& folder, int refinem
                     for (const FlatTriangle& u : r.bag.flat)
                         fabric += 0.5 * ((u[1] - u[0]).x() * (u[2] - u[0]).y() - (u[1] - u[0]).y() * (u[2] - u[0]).x());
                     const double weight = 9.81 * (scene.plaster().density * e.volume_m3 + p.density * fabric);
-                    std::printf("%d,%zu,%d,%.4g,%d,%.2g,%.5f,%.4f,%.6f,%.6f,%.4f,%.4f,%.5f,%.3g,%.2g,%.2f\n", e.faces, r.bag.edges.size(),
+                    std::printf("%d,%zu,%d,%.4g,%d,%.2g,%.5f,%.4f,%.6f,%.6f,%.6f,%.6f,%.4f,%.4f,%.5f,%.3g,%.2g,%.2f\n", e.faces, r.bag.edges.size(),
                                 n_shorter(r), p.kappa(edge_length(r.bag)) * edge_length(r.bag), e.iterations, e.residual, 1e3 * e.depth_m,
-                                1e6 * e.volume_m3, r.weave.abs_shear.mean, r.weave.fabric_abs_shear.mean, r.seam_max_force_N,
+                                1e6 * e.volume_m3, r.weave.abs_shear.mean, r.weave.fabric_abs_shear.mean,
+                                is_default ? r.compare[0].mean_abs_shear : 0.0, is_default ? r.compare[0].fabric_mean_abs_shear : 0.0,
+                                r.seam_max_force_N,
                                 r.seam_max_compression_N, 1e3 * r.seam_gap_max_m, 1e3 * largest_difference(first, e.x),
                                 std::abs(e.support_force_N[2] / weight - 1), e.cpu_s);
                 } catch (const arcsim::NumericalError& error) {
