@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <utility>
 
 #include "arcsim/base/error.hpp"
 #include "arcsim/base/text.hpp"
@@ -22,6 +23,10 @@ std::string figure(const JsonValue& stage, const char* key, double factor, const
     return format_short(factor * number(stage, key)) + " " + unit;
 }
 
+std::string shape(const JsonValue& stage) {
+    return figure(stage, "depth_m", 1000, "mm deep below the fill level, largest stretch ") + format_short(number(stage, "max_stretch"));
+}
+
 /// Ten lines that a workshop asks for first.
 void show(const std::filesystem::path& dir) {
     const JsonValue summary = read_summary(dir);
@@ -30,22 +35,23 @@ void show(const std::filesystem::path& dir) {
     std::printf("\n%s\n", dir.c_str());
     double seconds = 0;
     for (const auto& [name, stage] : summary.members) seconds += number(stage, "wall_s");
-    if (const JsonValue* s = summary.find("inflate")) {
-        row("plaster", figure(*s, "volume_m3", 1000, "l, ") + figure(*s, "liquid_mass_kg", 1, "kg"));
-        row("depth", figure(*s, "depth_m", 1000, "mm below the fill level"));
-        row("largest stretch", figure(*s, "max_stretch", 1, "(isotropic fabric)"));
-        row("residual", format_short(number(*s, "residual"), 2) + " of the load, " + format_short(number(*s, "iterations")) + " steps");
-    }
+    const JsonValue *inflated = summary.find("inflate"), *sewn = summary.find("sew");
+    // What is cast is the sewn bag; the isotropic one is softer and only leads to its seams.
+    if (const JsonValue* s = sewn ? sewn : inflated)
+        row("plaster to mix", figure(*s, "volume_m3", 1000, "l, ") + figure(*s, "liquid_mass_kg", 1, "kg"));
+    if (inflated) row("isotropic bag", shape(*inflated));
     if (const JsonValue* s = summary.find("segment"))
         row("panels", figure(*s, "panels", 1, "with ") + figure(*s, "seam_length_m", 1, "m of seams"));
     if (const JsonValue* s = summary.find("panels")) {
         row("cloth", figure(*s, "cloth_area_m2", 1, "m², roll ") + figure(*s, "roll_length_m", 1, "m"));
         row("flattening", "stretch error up to " + figure(*s, "max_stretch_distortion", 100, "%, mean ") + figure(*s, "mean_stretch_distortion", 100, "%"));
     }
-    if (const JsonValue* s = summary.find("sew")) {
-        row("sewn bag", "largest stretch " + figure(*s, "max_stretch", 1, "") + "(woven fabric)");
-        row("shear of the weave", "mean " + format_short(number(*s, "mean_abs_shear"), 3) + ", largest " + format_short(number(*s, "max_abs_shear"), 3));
+    if (sewn) {
+        row("sewn bag, woven", shape(*sewn));
+        row("shear of the weave", "mean " + format_short(number(*sewn, "mean_abs_shear"), 3) + ", largest " + format_short(number(*sewn, "max_abs_shear"), 3));
     }
+    for (const auto& [name, s] : {std::pair{"residual, isotropic", inflated}, std::pair{"residual, sewn", sewn}})
+        if (s) row(name, format_short(number(*s, "residual"), 2) + " of the load, " + format_short(number(*s, "iterations")) + " steps");
     row("computed in", arcsim::format_short(seconds, 3) + " s");
     if (summary.find("report")) row("report", (dir / "report.html").string());
 }
