@@ -99,7 +99,7 @@ SolveOutcome DynamicRelaxation::solve(VectorXd& x, double tolerance, double, con
     }
     if (out.status == SolveStatus::out_of_iterations)
         out.reason = "dynamic relaxation: residual " + arcsim::format_short(out.residual) + " after " + std::to_string(limit()) +
-                     " steps. Raise /formwork/inflate/solver/max_iterations, or use the method \"static\"";
+                     " steps. Raise solver/max_iterations of this stage, or use the method \"static\"";
     x = now;
     times_.total += arcsim::cpu_seconds() - start;
     return out;

@@ -92,7 +92,7 @@ SolveOutcome ProjectiveMethod::solve(VectorXd& x, double tolerance, double, cons
     }
     if (out.status == SolveStatus::out_of_iterations)
         out.reason = "the projective method: residual " + arcsim::format_short(out.residual) + " after " + std::to_string(limit()) +
-                     " iterations. Raise /formwork/inflate/solver/max_iterations, or use the method \"static\"";
+                     " iterations. Raise solver/max_iterations of this stage, or use the method \"static\"";
     times_.total += arcsim::cpu_seconds() - start;
     return out;
 }

@@ -42,7 +42,7 @@ void Run::explain_failure() {
     else
         text = "no convergence: residual " + short_number(residual) + " after " + std::to_string(method_->iterations()) +
                " iterations, largest stretch " + short_number(stretch) + "; equilibrium was found up to " + short_number(held) +
-               " of the load. Raise /formwork/inflate/solver/max_iterations, or fill less";
+               " of the load. Raise solver/max_iterations of this stage, or fill less";
     throw failure(text);
 }
 

@@ -80,7 +80,7 @@ SolveOutcome TimeStepping::solve(VectorXd& x, double tolerance, double, const st
     }
     if (out.status == SolveStatus::out_of_iterations)
         out.reason = "not at rest after " + std::to_string(limit()) + " steps (t = " + format_short(t) + " s): residual " +
-                     format_short(out.residual) + ". Raise /formwork/inflate/solver/end_time, or use the method \"static\"";
+                     format_short(out.residual) + ". Raise solver/end_time of this stage, or use the method \"static\"";
     x = now.x;
     times_.symbolic = matrix_.cost().symbolic_s;
     times_.numeric = matrix_.cost().numeric_s;

@@ -1,8 +1,16 @@
 #include "formwork/stages/equilibrium_summary.hpp"
 
+#include <system_error>
+
+#include "arcsim/mesh/obj_io.hpp"
+
 namespace formwork {
 
 using arcsim::JsonValue;
+
+namespace {
+constexpr const char* unconverged = "not_converged.obj";
+}
 
 JsonValue equilibrium_summary(const EquilibriumResult& r) {
     JsonValue v = JsonValue::object();
@@ -60,6 +68,18 @@ arcsim::ClothMesh mesh_with_rest(const std::vector<Vector3d>& x, const std::vect
         m.add_face(faces[f], verts);
     }
     return m;
+}
+
+arcsim::NumericalError keep_unconverged(const std::string& stage, const std::filesystem::path& folder, const EquilibriumError& e,
+                                        const arcsim::ClothMesh& last) {
+    const std::filesystem::path kept = folder / unconverged;
+    arcsim::write_obj(kept, last);
+    return arcsim::NumericalError(stage + ": " + e.what() + " The last state, not converged, is " + kept.string() + ".");
+}
+
+void forget_unconverged(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    std::filesystem::remove(folder / unconverged, ignored);
 }
 
 }  // namespace formwork

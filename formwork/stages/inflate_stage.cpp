@@ -53,10 +53,8 @@ arcsim::JsonValue run_inflate(const StageContext& context) {
     try {
         result = find_equilibrium(problem);
     } catch (const EquilibriumError& e) {
-        const std::filesystem::path kept = folder / "not_converged.obj";
-        if (!e.last || e.last->x.empty()) throw;
-        arcsim::write_obj(kept, deformed_mesh(mesh, problem, e.last->x));
-        throw arcsim::NumericalError(std::string("inflate: ") + e.what() + " The last state, not converged, is " + kept.string() + ".");
+        if (e.last->x.empty()) throw;
+        throw keep_unconverged("inflate", folder, e, deformed_mesh(mesh, problem, e.last->x));
     }
     for (const std::string& warning : result.warnings) context.progress.warning(warning);
     arcsim::write_obj(folder / "inflated.obj", deformed_mesh(mesh, problem, result.x));
@@ -64,8 +62,7 @@ arcsim::JsonValue run_inflate(const StageContext& context) {
     write_strain(folder, result.strain);
     if (result.volume_m3 > 0)
         write_stl(folder / "cast.stl", cast_solid({result.x, problem.rest.faces}, problem.up, result.fill_level_m, result.orientation), "cast");
-    std::error_code ignored;
-    std::filesystem::remove(folder / "not_converged.obj", ignored);   // ours, of an earlier attempt
+    forget_unconverged(folder);
     context.progress.end("inflate: " + std::to_string(result.iterations) + " steps, residual " + format_short(result.residual, 2) + ", depth " +
                          format_short(result.depth_m) + " m, " + format_short(1000 * result.volume_m3) + " l, max stretch " +
                          format_short(result.max_stretch) + ", " + arcsim::format_duration(result.wall_s));

@@ -120,11 +120,10 @@ std::vector<std::string> run_pipeline(const FormworkScene& scene, const fs::path
         progress.begin(stage.name);
         try {
             summary.set(stage.name, stage.run({scene, dir, progress}));
-        } catch (const arcsim::NumericalError& e) {
+        } catch (const arcsim::NumericalError&) {
             write_summary(dir, summary);
             if (last + 1 < table.size() || i == last) throw;
-            // The report shows what was reached; the failure is told after it.
-            progress.warning(std::string(stage.name) + ": " + e.what());
+            progress.warning("the stage " + std::string(stage.name) + " failed; the report shows what was reached");
             progress.begin("report");
             run_report({scene, dir, progress});
             throw;

@@ -56,15 +56,24 @@ JsonValue run_sew(const StageContext& context) {
                          inflated_figure(context.dir, "fill_level_m"),
                          inflated_figure(context.dir, "volume_m3"),
                          target_shape(scene)};
-    const SewResult r = sew_bag(input, p, [&](const std::string& name, const IterationReport& step) {
+    const auto show = [&](const std::string& name, const IterationReport& step) {
         context.progress.update({step.iteration, step.residual, p.solver.tolerance, {},
                                  (name == "sew" ? "" : name + ", ") + step.phase + ", max stretch " + format_short(step.max_stretch)});
-    });
+    };
+    const std::filesystem::path folder = context.dir / "sew";
+    SewResult r;
+    try {
+        r = sew_bag(input, p, show);
+    } catch (const EquilibriumError& e) {
+        if (e.last->x.empty()) throw;
+        const SewnBag bag = make_sewn_bag(input, p);
+        throw keep_unconverged("sew", folder, e, mesh_with_rest(e.last->x, bag.cut.faces, bag.flat));
+    }
+    forget_unconverged(folder);
     for (const std::string& warning : r.equilibrium.warnings) context.progress.warning(warning);
     for (const GrainVariant& g : r.compare)
         if (!g.failure.empty()) context.progress.warning("sew/compare/" + g.name + ": " + g.failure);
 
-    const std::filesystem::path folder = context.dir / "sew";
     arcsim::write_obj(folder / "sewn.obj", mesh_with_rest(r.equilibrium.x, r.bag.cut.faces, r.bag.flat));
     write_strain(folder, r.equilibrium.strain);
     if (r.equilibrium.volume_m3 > 0)
