@@ -72,7 +72,7 @@ std::string pattern_astm(const Pattern& pattern) {
     dxf.pair(0, "ENDSEC");
     dxf.pair(0, "SECTION"), dxf.pair(2, "ENTITIES");
     const std::string &date = pattern.info.date, day = date.size() == 10 ? date.substr(8, 2) + "-" + date.substr(5, 2) + "-" + date.substr(0, 4) : date;
-    double y = -20;
+    double y = -45;   // below the first piece and its own texts
     for (const std::string& text :
          {std::string("ASTM/D13Proposal 1 Version: D 6673-04"), "Style Name: " + ascii(pattern.info.name).substr(0, longest_name),
           "Creation Date: " + day, std::string("Creation Time: 00:00"), std::string("Author: formwork"), std::string("Sample Size: 1"),
