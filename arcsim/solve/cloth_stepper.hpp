@@ -61,9 +61,14 @@ public:
         if (model.limits) projection_ = std::make_unique<LimitProjection>(system_);
     }
     StepResult step(State& s, double h) override;
+    void restart() override;
 
 private:
+    std::vector<double> own_memory() const override { return {previous_v_.begin(), previous_v_.end()}; }
+    void set_own_memory(const std::vector<double>& memory) override;
+
     VectorXd f_, b_, v_, x_;
+    VectorXd previous_v_;   // at the start of the step before: only the solver's guess depends on it
     std::vector<Vector3d> held_velocity_;
     std::unique_ptr<LimitProjection> projection_;   // made when the model has limits
 };

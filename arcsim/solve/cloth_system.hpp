@@ -19,7 +19,7 @@ struct StepCost {
 class ClothSystem {
 public:
     explicit ClothSystem(ClothModel& model, FillOrder order = FillOrder::automatic,
-                         SolverKind solver = SolverKind::mixed);
+                         SolverKind solver = SolverKind::automatic);
 
     BlockMatrix& matrix() { return *A_; }
     const BlockPattern& pattern() const { return *pattern_; }

@@ -3,6 +3,7 @@
 #include <ctime>
 
 #include "arcsim/base/error.hpp"
+#include "arcsim/solve/own_factor.hpp"
 #include "arcsim/solve/solvers.hpp"
 
 // Present only when the BLAS is OpenBLAS.
@@ -30,6 +31,7 @@ std::unique_ptr<LinearSolver> make_linear_solver(SolverKind kind) {
         case SolverKind::single: return make_single();
         case SolverKind::mixed: return make_mixed();
         case SolverKind::pcg: return make_pcg();
+        case SolverKind::automatic: return own_factor_is_quick ? make_mixed() : make_cholmod();
     }
     return nullptr;
 }

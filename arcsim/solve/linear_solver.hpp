@@ -59,7 +59,8 @@ enum class SolverKind {
     supernodal,   // our own Cholesky
     single,       // the same in single precision: a preconditioner
     mixed,        // conjugate gradients on `single`, to the digits of `cholmod`
-    pcg           // conjugate gradients on an incomplete factor
+    pcg,          // conjugate gradients on an incomplete factor
+    automatic     // `mixed` or `cholmod`, whichever is quicker in this build (own_factor.hpp)
 };
 std::unique_ptr<LinearSolver> make_linear_solver(SolverKind kind);
 

@@ -33,6 +33,15 @@ void ClothStepper::set_memory(const std::vector<double>& memory) {
     set_own_memory({memory.begin() + static_cast<std::ptrdiff_t>(n), memory.end()});
 }
 
+void LinearizedEuler::restart() {
+    ClothStepper::restart();
+    previous_v_.resize(0);
+}
+
+void LinearizedEuler::set_own_memory(const std::vector<double>& memory) {
+    previous_v_ = Eigen::Map<const VectorXd>(memory.data(), static_cast<Eigen::Index>(memory.size()));
+}
+
 StepResult LinearizedEuler::step(State& s, double h) {
     ClothModel& model = system_.model();
     BlockMatrix& A = system_.matrix();
@@ -60,7 +69,7 @@ StepResult LinearizedEuler::step(State& s, double h) {
                              std::to_string(solver.breakdown().node) +
                              ": a material has k_uv² > k_uu k_vv, or a face is inverted");
     const double t2 = cpu_seconds();
-    v_ = s.v;   // a good guess: the velocity changes by h times the acceleration
+    v_ = previous_v_.size() == s.v.size() ? VectorXd(2 * s.v - previous_v_) : s.v;   // a guess: the acceleration goes on
     solver.improve(b_, v_);
     const double t3 = cpu_seconds();
 
@@ -77,6 +86,7 @@ StepResult LinearizedEuler::step(State& s, double h) {
     const double t4 = cpu_seconds();
     if (params_.max_stretch) check_state(x_, *params_.max_stretch);
     model.refresh_after_step(s.x);
+    previous_v_ = s.v;
     s.v = v_;
     s.x.swap(x_);
     cost_.assembly += t1 - t0;

@@ -12,6 +12,7 @@ constexpr std::array tangent_names{
     EnumName{StepTangent::exact, "exact", "full tangent while it can be factorised, otherwise the definite one"}};
 
 constexpr std::array solver_names{
+    EnumName{SolverKind::automatic, "automatic", "mixed, or cholmod in a program built for any x86-64 machine, where it is quicker"},
     EnumName{SolverKind::mixed, "mixed", "a factor in single precision, refined to double; the exact one where that fails"},
     EnumName{SolverKind::cholmod, "cholmod", "a factor in double precision"},
     EnumName{SolverKind::pcg, "pcg", "conjugate gradients on an incomplete factor: least memory"}};

@@ -20,7 +20,7 @@ struct StepParams {
     double tolerance = 1e-6;      // of the residual, relative to the largest force in the balance
     int max_iterations = 30;      // per step
     int max_halvings = 8;         // of a step that fails
-    SolverKind linear_solver = SolverKind::mixed;
+    SolverKind linear_solver = SolverKind::automatic;
     std::optional<double> max_stretch;   // a face beyond it means a failed step
 };
 void visit(Archive& a, StepParams& p);

@@ -1,5 +1,7 @@
 #include "formwork/equilibrium/tangent_factor.hpp"
 
+#include "arcsim/solve/own_factor.hpp"
+
 namespace formwork {
 namespace {
 
@@ -20,7 +22,7 @@ SolverKind kind_of(LinearSolverChoice c) {
 }  // namespace
 
 TangentFactor::TangentFactor(LinearSolverChoice choice) : double_kind_(kind_of(choice)) {
-    if (double_kind_ == SolverKind::cholmod) single_ = arcsim::make_linear_solver(SolverKind::single);
+    if (double_kind_ == SolverKind::cholmod && arcsim::own_factor_is_quick) single_ = arcsim::make_linear_solver(SolverKind::single);
 }
 
 void TangentFactor::analyze(const arcsim::BlockPattern& pattern) {

@@ -82,14 +82,15 @@ def dynamic_panel(axis, path):
     if not path.exists():
         return
     with open(path) as lines:
-        rows = [r for r in csv.DictReader(lines) if r["scene"] == "hang_iso" and r["max_error_m"] and float(r["max_error_m"]) > 0]
+        rows = [r for r in csv.DictReader(lines) if r["scene"] == "hang_iso" and float(r["t_s"]) == 0.4 and r["max_error_m"] and float(r["max_error_m"]) > 0]
+    with open(path.parent / "arcsim_published.csv") as lines:
+        published = [r for r in csv.DictReader(lines) if r["scene"] == "hang_iso" and float(r["t_s"]) == 0.4]
     for method in ("backward_euler", "newton_euler", "bdf2"):
         own = [r for r in rows if r["method"] == method]
         axis.plot([value(r, "cpu_s") for r in own], [value(r, "max_error_m") for r in own], MARKERS[method] + "-", color=COLOURS[method],
                   markersize=4, linewidth=1, label=method.replace("_", " ") + (" (ArcSim's step)" if method == "backward_euler" else ""))
-    own = [r for r in rows if r["method"] == "backward_euler"]
-    axis.plot([6.1e-3 * 0.4 / value(r, "h_s") for r in own], [value(r, "max_error_m") for r in own], "o--", color="0.5", markersize=4,
-              linewidth=1, label="ArcSim 0.2.1, 6.1 ms a step")
+    axis.plot([1e-3 * value(r, "cpu_ms_per_step") * 0.4 / value(r, "h_s") for r in published], [value(r, "max_error_m") for r in published], "o--",
+              color="0.5", markersize=4, linewidth=1, label="ArcSim 0.2.1, as published")
     axis.legend(fontsize=6)
 
 
@@ -126,7 +127,7 @@ def draw(rows, time_steps, folder):
     bars(axes[1][2], "pressure Jacobian, sock, 1000 vertices", of("Jacobian", case="sock"))
     bars(axes[2][0], "linear solver, filled disk, largest mesh", largest(of("linear solver", case="filled disk")))
     bars(axes[2][1], "sampling and compression, 4000 vertices", largest(of("sampling")) + largest(of("compression")))
-    bars(axes[2][2], "threads, filled disk: CPU time of all", of("threads"), "threads")
+    bars(axes[2][2], "threads, filled disk: wall time", of("threads"), "threads", key="wall_s")
     figure.tight_layout()
     save(figure, folder / "settings")
 
@@ -136,8 +137,7 @@ def largest(rows):
     return [r for r in rows if int(r["mesh"]) >= 0.8 * most or int(r["vertices"]) == most]
 
 
-def bars(axis, title, rows, labels_by="settings"):
-    key = "cpu_s"
+def bars(axis, title, rows, labels_by="settings", key="cpu_s"):
     axis.set_title(title, fontsize=10)
     several = len({r["case"] for r in rows}) > 1
     labels = [(f"{r['case'].split(',')[0]}: " if several else r["method"].replace("_", " ") + ", ") + r["settings"].partition(" ")[2]
