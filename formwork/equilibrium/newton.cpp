@@ -8,7 +8,6 @@ namespace formwork {
 
 using arcsim::cpu_seconds;
 using arcsim::PcgStatus;
-using arcsim::SolverKind;
 
 namespace {
 
@@ -20,6 +19,7 @@ constexpr double largest_step = 0.5;     // of the rest shape's half width per N
 constexpr int most_halvings = 12;
 constexpr int patience = 60;             // Newton steps without a new best residual
 constexpr double newton_is_trusted_at = 1e-2;   // relative residual; unsymmetric laws
+constexpr double residual_may_grow = 10;
 
 struct Stopwatch {
     double& sum;
@@ -38,10 +38,6 @@ NewtonSolver::NewtonSolver(StaticSystem& system, const SolverParams& params,
                                                                              : BlockMatrix::Kind::symmetric),
       limit_(params.max_iterations), T_ref_(system.scales().tension) {
     factor_.analyze(system.pattern());
-    if (H_.is_general()) {
-        lu_ = arcsim::make_linear_solver(SolverKind::umfpack);
-        lu_->analyze(system.pattern());
-    }
     times_.ordering = system.ordering_s();
 }
 
@@ -110,7 +106,7 @@ bool NewtonSolver::response(const VectorXd& x, const VectorXd& g, VectorXd& y) {
     g_ = g;
     system_.fixed().clear(g_);
     double T0 = 0;
-    const bool found = H_.is_general() ? direction_by_lu(T0, true) : direction(T0, 0);
+    const bool found = H_.is_general() ? direction_unsymmetric(x, T0, 0, true) : direction(T0, 0);
     y = d_;
     return found && T0 == 0;
 }
@@ -171,7 +167,7 @@ SolveOutcome NewtonSolver::solve(VectorXd& x, double tolerance, double T0, const
         }
         // Near the solution of an unsymmetric law Newton's direction need not pull forward; the residual judges it then.
         const bool by_residual = H_.is_general() && out.residual < newton_is_trusted_at;
-        const bool found = H_.is_general() ? direction_by_lu(T0, by_residual) : direction(T0, out.residual);
+        const bool found = H_.is_general() ? direction_unsymmetric(x, T0, out.residual, by_residual) : direction(T0, out.residual);
         if (!found) {
             out.status = SolveStatus::stalled;
             return out;
@@ -188,9 +184,12 @@ SolveOutcome NewtonSolver::solve(VectorXd& x, double tolerance, double T0, const
             trial = x + step * d_;
             there = system_.gradient(trial, trial_g_);
             const double pull = -d_.dot(trial_g_);
-            // A full step may meet a kink of the table and still be a good one; shorter ones have to gain.
+            const bool pulls = std::isfinite(pull) && pull >= -0.5 * slope;
+            if (!by_residual && pulls) break;
+            // A full step may meet a kink of the table and still be a good one; shorter ones have to gain. Where the fabric
+            // pulls forward, its pull judges as well: the residual alone gets caught among kinks.
             if (by_residual && there.residual < (halving == 0 ? 2 : 1) * now.residual) break;
-            if (!by_residual && std::isfinite(pull) && pull >= -0.5 * slope) break;
+            if (by_residual && pulls && slope > 0 && there.residual < residual_may_grow * now.residual) break;
             if (halving == most_halvings) break;
         }
         slow = there.residual > 0.5 * now.residual ? slow + 1 : 0;

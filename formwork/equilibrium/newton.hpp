@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "arcsim/solve/gmres.hpp"
 #include "arcsim/solve/linear_solver.hpp"
 #include "arcsim/solve/pcg.hpp"
 #include "formwork/equilibrium/iteration_log.hpp"
@@ -19,8 +20,8 @@ namespace formwork {
 ///     bulges smoothly at once;
 ///   - the linear system is solved by conjugate gradients on an older factor; a new factor is made only when those need
 ///     too many iterations or meet negative curvature;
-///     A law that is strongly unsymmetric gets an LU factorisation of the whole tangent instead, once per step: with
-///     the symmetric half alone a woven sock takes hundreds of steps;
+///     A law that is strongly unsymmetric gets GMRES with the whole tangent on a factor of its definite part (with the
+///     symmetric half alone a woven sock takes hundreds of steps), and LU where that fails;
 ///   - a step is halved until the force along it no longer pulls back by more than half: no energy is needed, so laws
 ///     without potential are welcome.
 class NewtonSolver final : public EquilibriumMethod {
@@ -42,7 +43,10 @@ public:
 
 private:
     bool direction(double& T0, double relative);
-    bool direction_by_lu(double& T0, bool any_direction);
+    bool direction_unsymmetric(const VectorXd& x, double& T0, double relative, bool any_direction);
+    bool direction_by_gmres(const VectorXd& x, double T0, double relative);
+    bool direction_by_lu();
+    bool factorize_definite(const VectorXd& x, double T0);
     bool factorize_regularised(double& T0);
     double rounding_floor(const VectorXd& x, double load);
 
@@ -50,8 +54,10 @@ private:
     SolverParams params_;
     IterationLog log_;
     TangentFactor factor_;
-    std::unique_ptr<arcsim::LinearSolver> lu_;   // for strongly unsymmetric laws
+    std::unique_ptr<BlockMatrix> definite_;      // of strongly unsymmetric laws
+    std::unique_ptr<arcsim::LinearSolver> lu_;   // for those where GMRES fails
     arcsim::FactorPcg pcg_;
+    arcsim::FactorGmres gmres_;
     BlockMatrix H_;
     VectorXd border_, g_, d_, trial_g_, rhs_;
     bool factor_is_stale_ = true;

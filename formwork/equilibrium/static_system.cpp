@@ -292,4 +292,9 @@ void StaticSystem::add_laplacian(double T0, BlockMatrix& H) const {
     H.fix(fixed_);
 }
 
+void StaticSystem::add_pressure_tangent(BlockMatrix& H) const {
+    pressure_->add_hessian(state_, arcsim::Tangent::exact, H);
+    H.fix(fixed_);
+}
+
 }  // namespace formwork

@@ -70,6 +70,8 @@ public:
                           VectorXd& border);
     /// Raises T0 of a tangent already made.
     void add_laplacian(double T0, BlockMatrix& H) const;
+    /// Adds the liquid's exact tangent at the x of the last tangent, which `definite` leaves out.
+    void add_pressure_tangent(BlockMatrix& H) const;
 
 private:
     void set_fill(const EquilibriumProblem& p, const VectorXd& rest);

@@ -61,9 +61,11 @@ double climb(const Objective& f, double start, double width, double& top) {
     Objective::Value v = f.at(a);
     for (int i = 0; i < 60; ++i) {
         (v.up > 0 ? low : high) = a;
-        double next = v.e > 0 && v.ddw < 0 ? a - v.dw / v.ddw : 0.5 * (low + high);
-        if (!(next > low && next < high)) next = 0.5 * (low + high);
-        const bool done = std::abs(next - a) < 1e-15 || high - low < 1e-15;
+        double next = a - v.dw / v.ddw;
+        const bool by_newton = v.e > 0 && v.ddw < 0 && next > low && next < high;
+        if (!by_newton) next = 0.5 * (low + high);
+        constexpr double last_step = 1e-10;   // of Newton's: the error after it is about its square
+        const bool done = (by_newton && std::abs(next - a) < last_step) || high - low < 1e-15;
         a = next;
         if (done) break;
         v = f.at(a);
@@ -84,8 +86,8 @@ Wrinkle wrinkle_of_constant(const arcsim::Stiffness4& k, const Vector3d& eps) {
     const double det = kuu * kvv - kuv * kuv;
     const Objective f{eps[0], eps[1], 2 * eps[2], kvv / det, -kuv / det, kuu / det, 2 / kss};
 
-    // Every maximum that shows between samples is followed to its top, and so is the principal direction of strain: there
-    // e > 0, however narrow the tension's range of angles may be.
+    // Every maximum that shows among the samples is followed to its top. Where no sample has e > 0, the range of angles with
+    // e > 0 is narrow, and about the principal direction of strain.
     constexpr int n_scan = 24;
     double w_at[n_scan];
     for (int i = 0; i < n_scan; ++i) {
@@ -94,13 +96,16 @@ Wrinkle wrinkle_of_constant(const arcsim::Stiffness4& k, const Vector3d& eps) {
         const double q = f.s11 * C * C + f.s22 * S * S + (2 * f.s12 + f.s66) * P * P;
         w_at[i] = e > 0 ? e * e / q : 0;
     }
-    double a = 0.5 * std::atan2(2 * eps[2], eps[0] - eps[1]);
-    double best_w = climb(f, a, pi / n_scan, a);
+    double a = 0, best_w = 0;
     for (int i = 0; i < n_scan; ++i) {
         const double before = w_at[(i + n_scan - 1) % n_scan], after = w_at[(i + 1) % n_scan];
         if (!(w_at[i] > 0 && w_at[i] >= before && w_at[i] > after)) continue;
         double top = 0;
         if (const double w = climb(f, pi * i / n_scan, pi / n_scan, top); w > best_w) best_w = w, a = top;
+    }
+    if (best_w == 0) {
+        a = 0.5 * std::atan2(2 * eps[2], eps[0] - eps[1]);
+        climb(f, a, pi / n_scan, a);
     }
     const double c = std::cos(a), s = std::sin(a);
     const Vector3d N(c * c, s * s, c * s);

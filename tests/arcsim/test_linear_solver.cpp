@@ -3,6 +3,7 @@
 
 #include "arcsim/base/error.hpp"
 #include "arcsim/solve/fill_order.hpp"
+#include "arcsim/solve/gmres.hpp"
 #include "arcsim/solve/linear_solver.hpp"
 #include "arcsim/solve/pcg.hpp"
 
@@ -212,4 +213,28 @@ TEST_CASE("conjugate gradients on a single-precision factor need a handful of it
         pcg.solve([&](const VectorXd& v, VectorXd& y) { A.multiply(v, y); }, *single, b, 1e-13, 20, x);
     REQUIRE(out.status == PcgStatus::converged);
     REQUIRE(out.iterations <= 5);
+}
+
+TEST_CASE("GMRES on a factor of the symmetric half solves with the whole matrix, and says when it has not") {
+    const int n = 20;
+    const auto faces = grid_faces(n);
+    const BlockPattern p(n * n, faces);
+    const BlockMatrix A = random_matrix(p, faces, BlockMatrix::Kind::general);
+    const auto half = make_linear_solver(SolverKind::single), whole = make_linear_solver(SolverKind::umfpack);
+    half->factorize(A);
+    whole->factorize(A);
+    const VectorXd b = random_vector(3 * n * n);
+    const auto multiply = [&](const VectorXd& v, VectorXd& y) { A.multiply(v, y); };
+    VectorXd x, Ax;
+    FactorGmres gmres;
+    const GmresOutcome out = gmres.solve(multiply, *half, b, 1e-5, 60, x);
+    REQUIRE(out.converged);
+    REQUIRE((x - whole->solve(b)).norm() < 1e-4 * x.norm());
+    const GmresOutcome early = gmres.solve(multiply, *half, b, 1e-10, 3, x);
+    REQUIRE_FALSE(early.converged);
+    REQUIRE(early.iterations == 3);
+    multiply(x, Ax);
+    REQUIRE((b - Ax).norm() < b.norm());
+    REQUIRE(gmres.solve(multiply, *half, VectorXd::Zero(3 * n * n), 1e-10, 3, x).converged);
+    REQUIRE(x.norm() == 0);
 }
