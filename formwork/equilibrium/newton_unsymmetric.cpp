@@ -8,7 +8,7 @@ namespace {
 
 constexpr int gmres_limit = 100;         // beyond, an LU factorisation is cheaper
 constexpr int gmres_refactor_next = 8;   // beyond, the next step gets a new factor; with a new one 1 to 5 are usual
-constexpr double wake_at = 1e-4;         // of T*: the first T0 tried where the fabric pulls back
+constexpr double pull_back_at = 1e-4;         // of T*: the first T0 tried where the fabric pulls back
 constexpr int attempts = 12;
 
 }  // namespace
@@ -23,7 +23,7 @@ bool NewtonSolver::direction_unsymmetric(const VectorXd& x, double& T0, double r
             const double pull = d_.dot(rhs_);
             if (std::isfinite(pull) && (any_direction || pull > 0)) return true;
         }
-        const double raised = std::max(10 * T0, wake_at * T_ref_);
+        const double raised = std::max(10 * T0, pull_back_at * T_ref_);
         system_.add_laplacian(raised - T0, H_);
         T0 = raised;
         factor_is_stale_ = true;

@@ -2,6 +2,7 @@
 
 #include <system_error>
 
+#include "arcsim/base/text.hpp"
 #include "arcsim/mesh/obj_io.hpp"
 
 namespace formwork {
@@ -68,6 +69,16 @@ arcsim::ClothMesh mesh_with_rest(const std::vector<Vector3d>& x, const std::vect
         m.add_face(faces[f], verts);
     }
     return m;
+}
+
+std::string doubt_about_overflow(const EquilibriumResult& r, const PlasterParams& plaster) {
+    if (!plaster.fill || !(plaster.fill->volume || plaster.fill->fraction)) return "";
+    const double above = r.depth_m - r.depth_below_rim_m;
+    constexpr double brimful = 1e-3;   // of the depth
+    if (!(above > brimful * r.depth_m)) return "";
+    return "the liquid's surface stands " + arcsim::format_short(1000 * above, 3) + " mm above the rim, as in a filling pipe: this bag holds " +
+           arcsim::format_short(1000 * r.capacity_m3) + " l up to its rim, not " + arcsim::format_short(1000 * r.volume_m3) +
+           " l. Lower /formwork/plaster/fill, or hold the rim higher.";
 }
 
 arcsim::NumericalError keep_unconverged(const std::string& stage, const std::filesystem::path& folder, const EquilibriumError& e,

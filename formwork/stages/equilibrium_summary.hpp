@@ -12,6 +12,10 @@ namespace formwork {
 /// The figures of SYSTEM §5 that inflate and sew share.
 arcsim::JsonValue equilibrium_summary(const EquilibriumResult& result);
 
+/// What to say of a bag filled by volume or fraction whose liquid stands above the rim, where poured liquid would run over; "" when
+/// it does not. A level that the scene itself sets above the rim is a head that was asked for.
+std::string doubt_about_overflow(const EquilibriumResult& result, const PlasterParams& plaster);
+
 /// One face's corners in rest coordinates as verts: the mesh `faces` at `x` with vt = `flat`.
 arcsim::ClothMesh mesh_with_rest(const std::vector<Vector3d>& x, const std::vector<Triangle>& faces,
                                  const std::vector<FlatTriangle>& flat);

@@ -57,6 +57,8 @@ arcsim::JsonValue run_inflate(const StageContext& context) {
         throw keep_unconverged("inflate", folder, e, deformed_mesh(mesh, problem, e.last->x));
     }
     for (const std::string& warning : result.warnings) context.progress.warning(warning);
+    if (const std::string doubt = doubt_about_overflow(result, context.scene.plaster()); !doubt.empty())
+        context.progress.warning("inflate: " + doubt);
     arcsim::write_obj(folder / "inflated.obj", deformed_mesh(mesh, problem, result.x));
     arcsim::write_obj(folder / "rest.obj", deformed_mesh(mesh, problem, mesh.surface.x));
     write_strain(folder, result.strain);

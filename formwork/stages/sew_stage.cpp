@@ -71,6 +71,8 @@ JsonValue run_sew(const StageContext& context) {
     }
     forget_unconverged(folder);
     for (const std::string& warning : r.equilibrium.warnings) context.progress.warning(warning);
+    if (const std::string doubt = doubt_about_overflow(r.equilibrium, context.scene.plaster()); !doubt.empty())
+        context.progress.warning("sew: " + doubt);
     for (const GrainVariant& g : r.compare)
         if (!g.failure.empty()) context.progress.warning("sew/compare/" + g.name + ": " + g.failure);
 
