@@ -84,7 +84,7 @@ void fit(const SceneArguments& a, Session& session) {
     if (session.quiet) return;
     for (const FittedEntry& e : r.entries)
         std::printf("  %-14s %12s +- %-12s %s\n", e.name.c_str(), format_short(e.value).c_str(), format_short(e.deviation).c_str(),
-                    e.determined ? "" : ("not determined: doubling it changes no force by more than about " + format_short(100 * e.influence, 2) + " %").c_str());
+                    e.determined ? "" : ("not determined: " + e.why + " (doubled, it changes them by at most about " + format_short(100 * e.influence, 2) + " %)").c_str());
 }
 
 }  // namespace

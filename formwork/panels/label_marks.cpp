@@ -114,15 +114,16 @@ void write_title(const std::vector<std::pair<std::string, double>>& lines, Sheet
         return Polygon{room.at - half, room.at + Vector2d(half.x(), -half.y()), room.at + half, room.at + Vector2d(-half.x(), half.y())};
     };
     double height = 5;
-    while (height > smallest_text && !sheet.fits_inside(block(height))) height *= 0.9;
-    height = std::max(height, smallest_text);
+    constexpr double tiniest = 0.5;   // mm: better small than written over the outline of a tiny piece
+    while (height > tiniest && !sheet.fits_inside(block(height))) height *= 0.9;
     sheet.occupy(block(height));
     double y = room.at.y() + total / 2 * height;
     for (const auto& [text, scale] : lines) {
         y -= leading * scale * height;
         piece.texts.push_back({{room.at.x(), y}, scale * height, 0, text, -1});
     }
-    const Vector2d middle(room.at.x(), y - 0.85 * arrow_gap * height);
+    Vector2d middle(room.at.x(), y - 0.85 * arrow_gap * height);
+    if (!contains(piece.sew, middle)) middle = room.at;   // a piece smaller than its title
     const double right = ray_to_outline(piece.sew, middle, Vector2d::UnitX()).value_or(room.radius);
     const double left = ray_to_outline(piece.sew, middle, -Vector2d::UnitX()).value_or(room.radius);
     constexpr double share = 0.8, longest = 200;   // of the way to the sew line; mm on each side

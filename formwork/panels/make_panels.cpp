@@ -43,7 +43,7 @@ void move_to_origin(FlatPanel& panel) {
 
 void check_panel(const FlatPanel& panel, const PanelParams& params) {
     const std::string who = "panels: panel " + std::to_string(panel.id + 1);
-    constexpr const char* finer = "Allow more panels (/formwork/segment/max_panels) or less distortion per panel "
+    constexpr const char* finer = "Allow more panels (/formwork/segment/max_panels), narrower ones (/formwork/segment/min_width) or less distortion per panel "
                                   "(/formwork/segment/max_distortion)";
     if (panel.flips > 0) throw arcsim::NumericalError(who + ": " + std::to_string(panel.flips) + " faces turned over while flattening.");
     if (panel.p95_stretch_distortion > params.max_distortion)

@@ -154,10 +154,13 @@ FitResult fit_table(const FitParams& p, const std::vector<MeasuredCurve>& measur
                 g[j] = 0;
             }
             VectorXd trial = q - A.ldlt().solve(g);
-            // No entry changes by more than a factor of three at once: far from the solution the slopes mean little.
+            // No entry changes by more than a factor of three at once: far from the solution the slopes mean little. Back to
+            // its start it may always go: an entry that the data say nothing about does not stay where an early step threw it.
             std::vector<double> entries(n);
-            for (int j = 0; j < n; ++j)
-                entries[j] = scale[j] * std::clamp(std::clamp(trial[j], q[j] / 3 - 0.01, 3 * q[j] + 0.1), 0.0, p.largest / scale[j]);
+            for (int j = 0; j < n; ++j) {
+                const double low = std::min(q[j] / 3 - 0.01, q0[j]), high = std::max(3 * q[j] + 0.1, q0[j]);
+                entries[j] = scale[j] * std::clamp(std::clamp(trial[j], low, high), 0.0, p.largest / scale[j]);
+            }
             law->make_stable(entries);
             for (int j = 0; j < n; ++j) trial[j] = entries[j] / scale[j];
             VectorXd trial_force, trial_r;
@@ -195,6 +198,15 @@ FitResult fit_table(const FitParams& p, const std::vector<MeasuredCurve>& measur
     // Entries that the prior holds use up no data.
     const double used = n - covariance.trace() / (p.prior_width * p.prior_width);
     covariance *= std::max(1.0, data_cost / std::max(1.0, m - used));
+    const auto why_not = [&](int j) -> std::string {
+        // Known to a third if all others were known? Then others can stand in for it: the one most correlated with it.
+        if (std::sqrt(1 / normal(j, j)) > q[j] / 3) return "the forces hardly depend on it";
+        int partner = j == 0 ? 1 : 0;
+        const auto correlation = [&](int k) { return std::abs(covariance(j, k)) / std::sqrt(covariance(j, j) * covariance(k, k)); };
+        for (int k = 0; k < n; ++k)
+            if (k != j && correlation(k) > correlation(partner)) partner = k;
+        return "cannot be told from " + law->parameter_name(partner);
+    };
     for (int j = 0; j < n; ++j) {
         FittedEntry e;
         e.name = law->parameter_name(j);
@@ -204,6 +216,7 @@ FitResult fit_table(const FitParams& p, const std::vector<MeasuredCurve>& measur
         for (int i = 0; i < m; ++i) e.influence = std::max(e.influence, std::abs(J(i, j)) * e.value / std::max(std::abs(force[i]), 1e-12));
         e.at_bound = q[j] <= 0 || e.value >= p.largest;
         e.determined = e.deviation < e.value / 3;
+        if (!e.determined) e.why = why_not(j);
         result.entries.push_back(e);
     }
     for (int i = 0; i < m; ++i) {

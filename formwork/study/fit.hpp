@@ -19,6 +19,7 @@ struct FittedEntry {
     double influence = 0;             // largest relative change of any used force when the entry doubles, to first order
     bool at_bound = false;
     bool determined = false;          // deviation below a third of the value: the data say what it is
+    std::string why;                  // it is not determined; empty when it is
 };
 
 /// A used point: measured against fitted.
@@ -50,7 +51,7 @@ FitResult fit_table(const FitParams& p, const std::vector<MeasuredCurve>& measur
 /// Where the fit begins without a material file: slopes of the measured curves.
 std::unique_ptr<StripLaw> start_from_slopes(const FitParams& p, const std::vector<MeasuredCurve>& measured);
 
-/// entry,value_N_per_m,deviation_N_per_m,determined,influence,at_bound,start_N_per_m
+/// entry,value_N_per_m,deviation_N_per_m,determined,influence,at_bound,start_N_per_m,why
 std::string fit_csv(const FitResult& r);
 /// A material file in ArcSim's format with a comment on every entry that the data do not determine. Tensor fits only.
 std::string fitted_material_text(const FitResult& r, double density);

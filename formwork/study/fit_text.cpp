@@ -7,10 +7,10 @@ namespace formwork {
 std::string fit_csv(const FitResult& r) {
     std::ostringstream out;
     out.precision(8);
-    out << "entry,value_N_per_m,deviation_N_per_m,determined,influence,at_bound,start_N_per_m\n";
+    out << "entry,value_N_per_m,deviation_N_per_m,determined,influence,at_bound,start_N_per_m,why\n";
     for (const FittedEntry& e : r.entries)
         out << e.name << ',' << e.value << ',' << e.deviation << ',' << (e.determined ? "yes" : "no") << ',' << e.influence << ','
-            << (e.at_bound ? "yes" : "no") << ',' << e.start << '\n';
+            << (e.at_bound ? "yes" : "no") << ',' << e.start << ',' << e.why << '\n';
     return out.str();
 }
 

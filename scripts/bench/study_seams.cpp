@@ -19,48 +19,59 @@ using namespace formwork;
 namespace {
 
 struct CutBag {
-    Segmentation s;
+    Segmentation s;                  // its nodes are its own source
     std::vector<FlatTriangle> flat;
+    std::vector<Vector3d> inflated;  // per node
+    std::vector<char> held;          // per degree of freedom
 };
 
-/// The point by the corners of `face`, on whose closure it lies.
-std::array<double, 3> in_face(const SurfacePoint& p, const std::vector<Triangle>& faces, int face) {
-    std::array<double, 3> b{0, 0, 0};
-    for (int k = 0; k < 3; ++k)
-        for (int c = 0; c < 3; ++c)
-            if (faces[p.face][k] == faces[face][c]) b[c] += p.barycentric[k];
-    return b;
+/// From here on the cut mesh is the input mesh: a refined node need not lie in any face of the file's.
+void become_source(Segmentation& s) {
+    s.source.assign(s.mesh.x.size(), {});
+    s.source_face.clear();
+    for (int f = 0; f < s.mesh.n_faces(); ++f) {
+        s.source_face.push_back(f);
+        for (int k = 0; k < 3; ++k) {
+            SurfacePoint& p = s.source[s.mesh.faces[f][k]];
+            p.face = f;
+            p.barycentric = {0, 0, 0};
+            p.barycentric[k] = 1;
+        }
+    }
 }
 
-CutBag refined(const CutBag& coarse, const std::vector<Triangle>& input_faces) {
+CutBag refined(const CutBag& coarse) {
     CutBag fine;
     fine.s.n_panels = coarse.s.n_panels;
     fine.s.mesh.x = coarse.s.mesh.x;
-    fine.s.source = coarse.s.source;
+    fine.inflated = coarse.inflated;
+    fine.held = coarse.held;
+    std::map<std::pair<int, int>, int> faces_at;   // of each edge: held rims stay held, edges between held nodes do not
+    for (const Triangle& t : coarse.s.mesh.faces)
+        for (int k = 0; k < 3; ++k) ++faces_at[std::minmax(t[k], t[(k + 1) % 3])];
     std::map<std::pair<int, int>, int> middles;
-    const auto middle = [&](int a, int b, int input_face) {
+    const auto middle = [&](int a, int b) {
         const auto [at, is_new] = middles.try_emplace(std::minmax(a, b), static_cast<int>(fine.s.mesh.x.size()));
         if (is_new) {
             fine.s.mesh.x.push_back(0.5 * (coarse.s.mesh.x[a] + coarse.s.mesh.x[b]));
-            const auto p = in_face(coarse.s.source[a], input_faces, input_face), q = in_face(coarse.s.source[b], input_faces, input_face);
-            fine.s.source.push_back({input_face, {0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]), 0.5 * (p[2] + q[2])}});
+            fine.inflated.push_back(0.5 * (coarse.inflated[a] + coarse.inflated[b]));
+            for (int axis = 0; axis < 3; ++axis)
+                fine.held.push_back(faces_at.at(std::minmax(a, b)) == 1 && coarse.held[3 * a + axis] && coarse.held[3 * b + axis]);
         }
         return at->second;
     };
     for (int f = 0; f < coarse.s.mesh.n_faces(); ++f) {
         const Triangle& t = coarse.s.mesh.faces[f];
         const FlatTriangle& u = coarse.flat[f];
-        const int input_face = coarse.s.source_face[f];
         int m[3];
         Vector2d v[3];
-        for (int k = 0; k < 3; ++k) m[k] = middle(t[k], t[(k + 1) % 3], input_face), v[k] = 0.5 * (u[k] + u[(k + 1) % 3]);
+        for (int k = 0; k < 3; ++k) m[k] = middle(t[k], t[(k + 1) % 3]), v[k] = 0.5 * (u[k] + u[(k + 1) % 3]);
         const std::array<Triangle, 4> faces{{{t[0], m[0], m[2]}, {m[0], t[1], m[1]}, {m[2], m[1], t[2]}, {m[0], m[1], m[2]}}};
         const std::array<FlatTriangle, 4> flat{{{u[0], v[0], v[2]}, {v[0], u[1], v[1]}, {v[2], v[1], u[2]}, {v[0], v[1], v[2]}}};
         for (int k = 0; k < 4; ++k) {
             fine.s.mesh.faces.push_back(faces[k]);
             fine.flat.push_back(flat[k]);
             fine.s.panel.push_back(coarse.s.panel[f]);
-            fine.s.source_face.push_back(input_face);
         }
     }
     for (Seam seam : coarse.s.seams) {
@@ -72,6 +83,7 @@ CutBag refined(const CutBag& coarse, const std::vector<Triangle>& input_faces) {
         seam.nodes = nodes;
         fine.s.seams.push_back(seam);
     }
+    become_source(fine.s);
     return fine;
 }
 
@@ -113,8 +125,9 @@ void study(const std::string& scene_file, const std::string& folder, int refinem
     CutBag bag;
     bag.s = read_segmentation(dir / "segment");
     bag.flat = flat_from_panels(bag.s, read_panels(dir / "panels/sewn_rest.obj", bag.s).panels);
-    const std::vector<Vector3d> inflated = arcsim::read_obj(dir / "inflate/inflated.obj").x;
-    const std::vector<char> held = held_dofs(scene, mesh);
+    bag.inflated = carry_to_cut_mesh(bag.s, mesh.surface.faces, arcsim::read_obj(dir / "inflate/inflated.obj").x);
+    bag.held = fixed_on_cut_mesh(bag.s, mesh.surface.faces, held_dofs(scene, mesh));
+    become_source(bag.s);
     const arcsim::JsonValue summary = read_summary(dir);
     const auto figure = [&](const char* key) { return summary.find("inflate")->find(key)->number; };
 
@@ -139,9 +152,9 @@ void study(const std::string& scene_file, const std::string& folder, int refinem
     std::printf("variant,refinement,start,faces,seam_edges,shorter_edges,EA_N,iterations,residual,depth_mm,volume_ml,mean_abs_shear,"
                 "fabric_mean_abs_shear,rotated_45_mean_abs_shear,rotated_45_fabric_mean_abs_shear,max_force_N,max_push_N,gap_mm,starts_apart_mm,weight_error,cpu_s\n");
     for (int level = 0; level <= refinements; ++level) {
-        if (level > 0) bag = refined(bag, mesh.surface.faces);
+        if (level > 0) bag = refined(bag);
         const std::vector<FlatPanel> panels = loose_panels(bag);
-        const SewInput input{bag.s, panels, mesh.surface.faces, inflated, held, scene.formwork.up, scene.plaster(),
+        const SewInput input{bag.s, panels, bag.s.mesh.faces, bag.inflated, bag.held, scene.formwork.up, scene.plaster(),
                              figure("fill_level_m"), figure("volume_m3"), {}};
         for (const Variant& v : variants) {
             SewParams p = base;

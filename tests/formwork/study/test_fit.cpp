@@ -60,6 +60,7 @@ TEST_CASE("a table is recovered from noisy curves within the stated uncertainty,
     for (int j = 0; j < 24; ++j) {
         const FittedEntry& e = r.entries[j];
         INFO(e.name << " " << e.value << " +- " << e.deviation << ", truth " << truth[j]);
+        CHECK(e.why.empty() == e.determined);   // what the data do not say is named with its reason
         if (!e.determined) continue;
         ++determined;
         CHECK(std::abs(e.value - truth[j]) < 3.5 * e.deviation);
