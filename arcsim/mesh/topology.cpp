@@ -19,9 +19,16 @@ std::uint64_t key(int a, int b) {
     return lo << 32 | hi;
 }
 
+/// The half-edges of one undirected edge: the first two, and how many there are.
+struct EdgeGroup {
+    std::array<HalfEdge, 2> half;
+    int size = 0;
+};
+
 /// Half-edges grouped by undirected edge, groups in the order in which the faces first name them.
-std::vector<std::vector<HalfEdge>> group_half_edges(const Surface& s) {
-    std::vector<std::vector<HalfEdge>> groups;
+std::vector<EdgeGroup> group_half_edges(const Surface& s) {
+    std::vector<EdgeGroup> groups;
+    groups.reserve(s.faces.size() * 3 / 2 + 16);
     std::unordered_map<std::uint64_t, int> index;
     index.reserve(s.faces.size() * 2);
     for (int f = 0; f < s.n_faces(); ++f)
@@ -29,7 +36,9 @@ std::vector<std::vector<HalfEdge>> group_half_edges(const Surface& s) {
             const int a = s.faces[f][(k + 1) % 3], b = s.faces[f][(k + 2) % 3];
             const auto [it, is_new] = index.emplace(key(a, b), static_cast<int>(groups.size()));
             if (is_new) groups.emplace_back();
-            groups[it->second].push_back({a, b, f, k});
+            EdgeGroup& group = groups[it->second];
+            if (group.size < 2) group.half[group.size] = {a, b, f, k};
+            ++group.size;
         }
     return groups;
 }
@@ -47,6 +56,7 @@ std::vector<int> order_fan(const Surface& s, const Topology& t, int node, const 
         start = back;
     }
     std::vector<int> fan;
+    fan.reserve(around.size());
     for (int f = start; f >= 0 && fan.size() < around.size();) {
         fan.push_back(f);
         f = t.neighbour(f, (corner_of(f) + 1) % 3);
@@ -59,20 +69,23 @@ std::string edge_name(const std::array<int, 2>& e) {
     return "edge " + std::to_string(e[0] + 1) + "-" + std::to_string(e[1] + 1);
 }
 
-Topology connect(const Surface& s, const std::vector<std::vector<HalfEdge>>& groups) {
+/// Edges of a surface whose edges have one or two faces.
+Topology connect(const Surface& s, const std::vector<EdgeGroup>& groups) {
     Topology t;
     t.face_edges.resize(s.faces.size());
     t.edges.reserve(groups.size());
     t.boundary_node.assign(s.x.size(), 0);
-    for (const auto& group : groups) {
-        Edge e{{group[0].from, group[0].to}, {group[0].face, -1}, {group[0].corner, -1}};
-        if (group.size() > 1) {
-            e.face[1] = group[1].face;
-            e.corner[1] = group[1].corner;
+    for (const EdgeGroup& group : groups) {
+        const auto& [first, second] = group.half;
+        Edge e{{first.from, first.to}, {first.face, -1}, {first.corner, -1}};
+        t.face_edges[first.face][first.corner] = static_cast<int>(t.edges.size());
+        if (group.size > 1) {
+            e.face[1] = second.face;
+            e.corner[1] = second.corner;
+            t.face_edges[second.face][second.corner] = static_cast<int>(t.edges.size());
         } else {
-            t.boundary_node[group[0].from] = t.boundary_node[group[0].to] = 1;
+            t.boundary_node[first.from] = t.boundary_node[first.to] = 1;
         }
-        for (const HalfEdge& h : group) t.face_edges[h.face][h.corner] = static_cast<int>(t.edges.size());
         t.edges.push_back(e);
     }
     return t;
@@ -125,11 +138,14 @@ int Topology::euler_characteristic() const {
     return static_cast<int>(used) - static_cast<int>(edges.size()) + static_cast<int>(face_edges.size());
 }
 
-TopologyDefects find_defects(const Surface& s) {
+namespace {
+
+/// Defects, and, where there are none, edges and fans.
+TopologyDefects examine(const Surface& s, Topology& t) {
     TopologyDefects d;
     for (int f = 0; f < s.n_faces(); ++f) {
-        const Triangle& t = s.faces[f];
-        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) d.repeated_corner_faces.push_back(f);
+        const Triangle& c = s.faces[f];
+        if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) d.repeated_corner_faces.push_back(f);
     }
     std::vector<std::vector<int>> around(s.x.size());
     for (int f = 0; f < s.n_faces(); ++f)
@@ -139,24 +155,35 @@ TopologyDefects find_defects(const Surface& s) {
     if (!d.repeated_corner_faces.empty()) return d;
 
     const auto groups = group_half_edges(s);
-    for (const auto& g : groups) {
-        const std::array<int, 2> e{g[0].from, g[0].to};
-        if (g.size() > 2)
+    for (const EdgeGroup& g : groups) {
+        const std::array<int, 2> e{g.half[0].from, g.half[0].to};
+        if (g.size > 2)
             d.nonmanifold_edges.push_back(e);
-        else if (g.size() == 2 && g[0].from == g[1].from)
+        else if (g.size == 2 && g.half[0].from == g.half[1].from)
             d.misoriented_edges.push_back(e);
     }
     if (!d.nonmanifold_edges.empty() || !d.misoriented_edges.empty()) return d;
 
-    const Topology t = connect(s, groups);
-    for (int v = 0; v < s.n_nodes(); ++v)
-        if (!around[v].empty() && order_fan(s, t, v, around[v]).size() < around[v].size())
-            d.nonmanifold_nodes.push_back(v);
+    t = connect(s, groups);
+    t.node_faces.resize(s.x.size());
+    for (int v = 0; v < s.n_nodes(); ++v) {
+        if (around[v].empty()) continue;
+        t.node_faces[v] = order_fan(s, t, v, around[v]);
+        if (t.node_faces[v].size() < around[v].size()) d.nonmanifold_nodes.push_back(v);
+    }
     return d;
 }
 
+}  // namespace
+
+TopologyDefects find_defects(const Surface& s) {
+    Topology t;
+    return examine(s, t);
+}
+
 Topology build_topology(const Surface& s, const std::string& source_name) {
-    const TopologyDefects d = find_defects(s);
+    Topology t;
+    const TopologyDefects d = examine(s, t);
     const auto fail = [&](const std::string& what) { throw InputError(source_name + ": " + what); };
     if (!d.repeated_corner_faces.empty())
         fail("face " + std::to_string(d.repeated_corner_faces[0] + 1) +
@@ -174,13 +201,6 @@ Topology build_topology(const Surface& s, const std::string& source_name) {
              " joins parts of the surface that share no edge there (" +
              std::to_string(d.nonmanifold_nodes.size()) + " such nodes). Split the node.");
 
-    Topology t = connect(s, group_half_edges(s));
-    std::vector<std::vector<int>> around(s.x.size());
-    for (int f = 0; f < s.n_faces(); ++f)
-        for (int v : s.faces[f]) around[v].push_back(f);
-    t.node_faces.resize(s.x.size());
-    for (int v = 0; v < s.n_nodes(); ++v)
-        if (!around[v].empty()) t.node_faces[v] = order_fan(s, t, v, around[v]);
     find_components(s, t);
     find_boundary_loops(t);
     return t;

@@ -37,21 +37,21 @@ CutMesh::CutMesh(const Surface& input, Surface cut, std::vector<SurfacePoint> so
 }
 
 void CutMesh::number_edges() {
-    left_.reserve(4 * surface_.faces.size());
+    left_.reserve(3 * surface_.faces.size());
     for (int f = 0; f < surface_.n_faces(); ++f) {
         const arcsim::Triangle& t = surface_.faces[f];
-        for (int k = 0; k < 3; ++k) left_[directed(t[k], t[(k + 1) % 3])] = f;
+        for (int k = 0; k < 3; ++k) left_.set(t[k], t[(k + 1) % 3], f);
     }
 }
 
 int CutMesh::face_left(int a, int b) const {
-    const auto it = left_.find(directed(a, b));
-    return it == left_.end() ? -1 : it->second;
+    const int* face = left_.find(a, b);
+    return face ? *face : -1;
 }
 
 void CutMesh::set_face(int f, const arcsim::Triangle& t) {
     surface_.faces[f] = t;
-    for (int k = 0; k < 3; ++k) left_[directed(t[k], t[(k + 1) % 3])] = f;
+    for (int k = 0; k < 3; ++k) left_.set(t[k], t[(k + 1) % 3], f);
 }
 
 SurfacePoint CutMesh::locate(int face, const Vector3d& x) const {
@@ -79,8 +79,8 @@ int CutMesh::split_edge(int a, int b, double t) {
     assert(f >= 0 || g >= 0);
     surface_.x.push_back((1 - t) * surface_.x[a] + t * surface_.x[b]);
     source_.push_back(locate(f >= 0 ? f : g, surface_.x[m]));
-    left_.erase(directed(a, b));
-    left_.erase(directed(b, a));
+    left_.erase(a, b);
+    left_.erase(b, a);
     if (f >= 0) split_face(f, a, b, m);
     if (g >= 0) split_face(g, b, a, m);
     if (is_seam(a, b)) {
@@ -98,8 +98,8 @@ bool CutMesh::flip(int a, int b) {
     const arcsim::Triangle &s = surface_.faces[f], &t = surface_.faces[g];
     const int c = s[0] + s[1] + s[2] - a - b, d = t[0] + t[1] + t[2] - a - b;
     if (face_left(c, d) >= 0 || face_left(d, c) >= 0) return false;
-    left_.erase(directed(a, b));
-    left_.erase(directed(b, a));
+    left_.erase(a, b);
+    left_.erase(b, a);
     set_face(f, {c, a, d});
     set_face(g, {d, b, c});
     return true;

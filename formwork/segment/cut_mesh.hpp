@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstdint>
-#include <unordered_map>
+#include <algorithm>
 #include <vector>
 
+#include "formwork/segment/edge_map.hpp"
 #include "formwork/segment/segmentation.hpp"
 
 namespace formwork {
@@ -41,15 +41,15 @@ public:
     /// The face to the left of the directed edge a -> b; -1: none.
     int face_left(int a, int b) const;
     bool is_rim(int a, int b) const { return (face_left(a, b) < 0) != (face_left(b, a) < 0); }
-    bool is_seam(int a, int b) const { return seams_.count(undirected(a, b)) > 0; }
+    bool is_seam(int a, int b) const { return seams_.contains(std::min(a, b), std::max(a, b)); }
     bool is_border(int a, int b) const { return is_seam(a, b) || is_rim(a, b); }
     /// A seam that was asked for: the layout never removes it.
     bool is_given(int a, int b) const {
-        const auto it = seams_.find(undirected(a, b));
-        return it != seams_.end() && it->second;
+        const int* given = seams_.find(std::min(a, b), std::max(a, b));
+        return given && *given;
     }
-    void mark_seam(int a, int b, bool given = false) { seams_[undirected(a, b)] = given; }
-    void unmark_seam(int a, int b) { seams_.erase(undirected(a, b)); }
+    void mark_seam(int a, int b, bool given = false) { seams_.set(std::min(a, b), std::max(a, b), given); }
+    void unmark_seam(int a, int b) { seams_.erase(std::min(a, b), std::max(a, b)); }
 
     /// Splits the faces along the curve and returns its nodes. The pieces are not marked.
     std::vector<int> insert(const Curve& curve);
@@ -65,10 +65,6 @@ public:
     void set_source_face(int face, int source) { source_face_[face] = source; }
 
 private:
-    static std::uint64_t directed(int a, int b) {
-        return static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32 | static_cast<std::uint32_t>(b);
-    }
-    static std::uint64_t undirected(int a, int b) { return a < b ? directed(a, b) : directed(b, a); }
     void number_edges();
     void set_face(int f, const arcsim::Triangle& t);
     void split_face(int f, int a, int b, int m);
@@ -78,8 +74,8 @@ private:
     Surface surface_;
     std::vector<SurfacePoint> source_;
     std::vector<int> source_face_, split_from_;
-    std::unordered_map<std::uint64_t, int> left_;   // directed edge -> face
-    std::unordered_map<std::uint64_t, bool> seams_;   // edge -> was it asked for
+    EdgeMap left_;    // directed edge -> face
+    EdgeMap seams_;   // edge, lower node first -> was it asked for
 };
 
 /// Barycentric coordinates of the point of face f's plane nearest to x; they sum to 1 and may be negative.

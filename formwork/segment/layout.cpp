@@ -13,7 +13,7 @@ Layout::Layout(const Surface& input, const std::vector<double>& theta, const std
 
 Layout::Layout(const Surface& input, const std::vector<double>& theta, const std::vector<DirectionData>& data,
                const SplitRules& rules, const LayoutLimits& limits, CutMesh cut)
-    : input_(input), rules_(rules), limits_(limits), cut_(std::move(cut)), data_(data) {
+    : input_(&input), rules_(rules), limits_(limits), cut_(std::move(cut)), data_(&data) {
     int n = 0;
     panel_ = label_panels(cut_, n);
     panels_.resize(n);
@@ -29,7 +29,7 @@ SurfaceField Layout::field_on(const Surface& mesh, const std::vector<int>& sourc
     for (int f = 0; f < mesh.n_faces(); ++f) {
         const arcsim::FaceFrame frame = arcsim::face_frame(mesh, f);
         field.theta.push_back(frame.angle(arm_[source_face[f]]));
-        field.data.push_back(data_[source_face[f]]);
+        field.data.push_back((*data_)[source_face[f]]);
         field.data.back().theta = frame.angle(principal_[source_face[f]]);
     }
     return field;
@@ -138,6 +138,7 @@ std::vector<std::string> Layout::violations() {
         if (q.is_disk && q.p95 > rules_.max_distortion)
             lines.push_back(name + "stretch of " + percent(q.p95) + " (95 % of the area) exceeds max_distortion " +
                             percent(rules_.max_distortion));
+        if (q.overlaps) lines.push_back(name + "overlaps itself when laid flat");
         if (q.corners > rules_.max_corners)
             lines.push_back(name + std::to_string(q.corners) + " corners, more than " + std::to_string(rules_.max_corners));
         if (q.is_disk && q.width < rules_.min_width) lines.push_back(name + "narrower than min_width");

@@ -33,6 +33,8 @@ public:
     void search();
     /// Splits what is no disk or does not lie flat within the bound. @returns whether a seam was added
     bool refine();
+    /// Lays out anew, with some of its neighbours, every panel that is out of bounds. @returns whether that changed anything
+    bool rework();
     /// Leaves out of the search every panel that lies on the far side of a plane.
     void keep_one_side(const Vector3d& point, const Vector3d& normal);
     /// Per face: 1 where the search went on.
@@ -45,6 +47,9 @@ public:
     /// The field on the faces of a mesh that lies on the input.
     SurfaceField field_on(const Surface& mesh, const std::vector<int>& source_face) const;
     int n_panels() const;
+    /// What the layout costs, in panels: its panels, bounds that are not kept, and one for every sqrt(area) of seam.
+    double cost();
+    bool keeps_bounds();
     /// Bounds that are not met, one line each; panels numbered as label_panels does.
     std::vector<std::string> violations();
 
@@ -92,17 +97,15 @@ private:
         std::vector<Panel> panels;
     };
     void restore(const State& s);
-    double cost();
     std::vector<std::vector<int>> groups_around(int seed);
-    bool rework(const std::vector<int>& group);
-    void rework();
+    bool rework(const std::vector<int>& group, double& work_left);
 
-    const Surface& input_;
+    const Surface* input_;
     SplitRules rules_;
     LayoutLimits limits_;
     CutMesh cut_;
     std::vector<Vector3d> arm_, principal_;     // per input face: directions in space
-    const std::vector<DirectionData>& data_;
+    const std::vector<DirectionData>* data_;
     std::vector<int> panel_;                    // per face of the cut mesh
     std::vector<Panel> panels_;
 };

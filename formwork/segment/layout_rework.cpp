@@ -11,15 +11,14 @@
 namespace formwork {
 namespace {
 
-constexpr int first_cuts = 5;          // that a new layout of a group is begun with
-constexpr int most_groups = 120;       // tried in all
+constexpr int first_cuts = 4;          // that a new layout of a group is begun with
+constexpr double most_work = 30;       // faces that are laid out anew, all groups and cuts, over the mesh's
 constexpr int most_neighbours = 3;     // of a panel, longest border first, that are joined one or two at a time
 constexpr double far_apart = 0.12;     // of the group's size: distance between the first cuts' middles
-constexpr double largest_group = 0.6;  // of the surface
+constexpr double largest_group = 0.35; // of the surface
 
 }  // namespace
 
-/// Of the whole layout, in panels: what its panels cost, and a panel for every sqrt(area) of seam.
 double Layout::cost() {
     const Surface& s = cut_.surface();
     double length = 0, area = 0, sum = 0;
@@ -34,6 +33,12 @@ double Layout::cost() {
     for (int p = 0; p < static_cast<int>(panels_.size()); ++p)
         if (panels_[p].alive && !panels_[p].frozen) sum += panel_cost(quality(p), rules_);
     return sum + length / std::sqrt(area);
+}
+
+bool Layout::keeps_bounds() {
+    for (int p = 0; p < static_cast<int>(panels_.size()); ++p)
+        if (panels_[p].alive && !panels_[p].frozen && !formwork::keeps_bounds(quality(p), rules_)) return false;
+    return n_panels() <= limits_.max_panels;
 }
 
 /// The panel with one, two or all of its neighbours.
@@ -55,11 +60,17 @@ std::vector<std::vector<int>> Layout::groups_around(int seed) {
             if (quality(p).area < 6 * quality(seed).area) small.push_back(p);
         if (small.size() > 3) groups.push_back(small);
     }
+    const auto area = [&](const std::vector<int>& group) {
+        double sum = 0;
+        for (int p : group) sum += quality(p).area;
+        return sum;
+    };
+    std::stable_sort(groups.begin(), groups.end(), [&](const auto& a, const auto& b) { return area(a) < area(b); });   // cheapest first
     return groups;
 }
 
 /// Joins the panels of a group and lays them out anew; keeps the cheapest result, if it is cheaper than what was there.
-bool Layout::rework(const std::vector<int>& group) {
+bool Layout::rework(const std::vector<int>& group, double& work_left) {
     double area = 0, whole = 0;
     for (const Panel& p : panels_)
         if (p.alive && !p.frozen) whole += p.quality.area;
@@ -86,6 +97,7 @@ bool Layout::rework(const std::vector<int>& group) {
     } else {
         cuts.emplace_back();
     }
+    work_left -= static_cast<double>(cuts.size() * patch.surface.faces.size());
     const State joined{cut_, panel_, panels_};
     std::optional<State> best;
     double least = before - 1e-6;
@@ -114,29 +126,30 @@ void Layout::restore(const State& s) {
 }
 
 /// Groups around every panel that is out of bounds, the worst first, until all keep them or nothing helps.
-void Layout::rework() {
-    int left = most_groups;
+bool Layout::rework() {
+    bool any = false;
+    double left = most_work * cut_.surface().n_faces();
     std::set<std::vector<std::pair<int, double>>> tried;   // panels of a group and their areas
     for (bool changed = true; changed && left > 0;) {
         changed = false;
         std::vector<std::pair<double, int>> order;
         for (int p = 0; p < static_cast<int>(panels_.size()); ++p)
-            if (panels_[p].alive && !panels_[p].frozen && !keeps_bounds(quality(p), rules_))
+            if (panels_[p].alive && !panels_[p].frozen && !formwork::keeps_bounds(quality(p), rules_))
                 order.emplace_back(-panel_cost(quality(p), rules_), p);
         std::sort(order.begin(), order.end());
         for (const auto& [weight, seed] : order) {
             for (const auto& group : groups_around(seed)) {
                 std::vector<std::pair<int, double>> key;
                 for (int p : group) key.emplace_back(p, quality(p).area);
-                if (left == 0 || !tried.insert(key).second) continue;
-                --left;
-                if (!rework(group)) continue;
-                changed = true;
+                if (left <= 0 || !tried.insert(key).second) continue;
+                if (!rework(group, left)) continue;
+                any = changed = true;
                 break;
             }
             if (changed) break;
         }
     }
+    return any;
 }
 
 }  // namespace formwork

@@ -74,7 +74,7 @@ int Layout::worst_panel() {
     for (int p = 0; p < static_cast<int>(panels_.size()); ++p) {
         if (!panels_[p].alive || panels_[p].stuck || panels_[p].frozen || panels_[p].parked) continue;
         const PanelQuality& q = quality(p);
-        if (q.is_disk && q.p95 <= rules_.max_distortion) continue;
+        if (q.is_disk && !q.overlaps && q.p95 <= rules_.max_distortion) continue;
         if (!q.is_disk) return p;
         if (excess(q) > most) {
             most = excess(q);
@@ -136,7 +136,7 @@ bool Layout::try_merge(int a, int b, const Border& border) {
     PanelQuality q = look_at(patch, rules_, std::min(calibration_of(quality(a)), calibration_of(quality(b))));
     if (q.p95 > 1.4 * allowed) return false;
     formwork::measure_flat(patch, rules_, q);
-    if (q.p95 > allowed) return false;
+    if (q.p95 > allowed || (q.overlaps && a != b)) return false;
     for (const auto& [i, j] : border.edges) cut_.unmark_seam(i, j);
     for (int f : faces) panel_[f] = a;
     if (a != b) panels_[b].alive = false;

@@ -1,6 +1,7 @@
 #include "formwork/segment/mirror_layout.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -9,151 +10,120 @@
 #include "formwork/segment/nearest_surface.hpp"
 
 namespace formwork {
+namespace {
 
-Surface settle_on_plane(const Surface& s, const Topology& t, const Vector3d& point, const Vector3d& normal,
-                        std::vector<SurfacePoint>& source) {
-    constexpr double reach = 0.25;   // of a node's shortest edge
-    Surface moved = s;
-    source = CutMesh(s).source();
-    std::vector<double> height, shortest(s.x.size(), std::numeric_limits<double>::infinity());
-    for (const Vector3d& x : s.x) height.push_back(normal.dot(x - point));
-    for (const arcsim::Edge& e : t.edges)
-        for (int v : e.node) shortest[v] = std::min(shortest[v], (s.x[e.node[0]] - s.x[e.node[1]]).norm());
-    const auto is_near = [&](int v) { return std::abs(height[v]) < reach * shortest[v]; };
-    for (int v = 0; v < s.n_nodes(); ++v) {
-        if (!is_near(v) || t.is_boundary_node(v)) continue;
-        source[v] = nearest_point(s, t, source[v].face, s.x[v] - height[v] * normal);
-        moved.x[v] = point_at(s, source[v]);
+/// A part of the surface that grows by its mirror images.
+struct Part {
+    MeshOnInput mesh;
+    std::vector<char> on_rim;                     // per node: on the input's own rim
+    std::vector<std::vector<char>> on_plane;      // per plane, per node: on the border that lies on the plane
+    std::vector<std::pair<int, int>> seams;
+};
+
+/// The kept faces of a cut mesh. A border of the part lies on the plane that parts its two faces.
+Part take_part(const CutMesh& cut, const std::vector<char>& kept, const std::vector<MirrorPlane>& planes) {
+    const Surface& s = cut.surface();
+    Part part;
+    part.on_plane.resize(planes.size());
+    std::vector<int> number(s.x.size(), -1);
+    const auto side = [&](int f, std::size_t k) { return planes[k].normal.dot(arcsim::face_centroid(s, f) - planes[k].point) >= 0; };
+    for (int f = 0; f < s.n_faces(); ++f) {
+        if (!kept[f]) continue;
+        for (int v : s.faces[f]) {
+            if (number[v] >= 0) continue;
+            number[v] = part.mesh.surface.n_nodes();
+            part.mesh.surface.x.push_back(s.x[v]);
+            part.mesh.source.push_back(cut.source()[v]);
+        }
+        const arcsim::Triangle& t = s.faces[f];
+        part.mesh.surface.faces.push_back({number[t[0]], number[t[1]], number[t[2]]});
+        part.mesh.source_face.push_back(cut.source_face()[f]);
     }
+    part.on_rim.assign(part.mesh.surface.x.size(), 0);
+    for (auto& on : part.on_plane) on.assign(part.mesh.surface.x.size(), 0);
+    for (int f = 0; f < s.n_faces(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const int a = s.faces[f][k], b = s.faces[f][(k + 1) % 3], g = cut.face_left(b, a);
+            if (!kept[f]) continue;
+            if (g < 0) part.on_rim[number[a]] = part.on_rim[number[b]] = 1;
+            if (cut.is_seam(a, b)) part.seams.emplace_back(number[a], number[b]);
+            if (g < 0 || kept[g]) continue;
+            for (std::size_t p = 0; p < planes.size(); ++p)
+                if (side(f, p) != side(g, p)) part.on_plane[p][number[a]] = part.on_plane[p][number[b]] = 1;
+        }
+    return part;
+}
+
+/// The point of the rim nearest to x.
+SurfacePoint nearest_on_rim(const Surface& input, const Topology& t, const Vector3d& x) {
+    SurfacePoint p;
+    double least = std::numeric_limits<double>::infinity();
     for (const arcsim::Edge& e : t.edges) {
-        if (!e.is_boundary() || height[e.node[0]] * height[e.node[1]] >= 0) continue;
-        const int end = is_near(e.node[0]) ? 0 : is_near(e.node[1]) ? 1 : -1;
-        if (end < 0) continue;
-        const double u = height[e.node[0]] / (height[e.node[0]] - height[e.node[1]]);
-        SurfacePoint p{e.face[0], {0, 0, 0}};
+        if (!e.is_boundary()) continue;
+        const Vector3d a = input.x[e.node[0]], d = input.x[e.node[1]] - a;
+        const double u = std::clamp((x - a).dot(d) / d.squaredNorm(), 0., 1.), off = (a + u * d - x).squaredNorm();
+        if (off >= least) continue;
+        least = off;
+        p.face = e.face[0];
+        p.barycentric = {0, 0, 0};
         p.barycentric[(e.corner[0] + 1) % 3] = 1 - u;
         p.barycentric[(e.corner[0] + 2) % 3] = u;
-        source[e.node[end]] = p;
-        moved.x[e.node[end]] = point_at(s, p);
     }
-    return moved;
+    return p;
 }
 
-std::vector<Curve> plane_curves(const Surface& s, const Topology& t, const Vector3d& point, const Vector3d& normal) {
-    std::vector<double> height;
-    const double on_plane = 0.02 * arcsim::mean_edge_length(s);   // settled nodes, but for the surface's curvature
-    for (const Vector3d& x : s.x) {
-        height.push_back(normal.dot(x - point));
-        if (std::abs(height.back()) < on_plane) height.back() = 0;
+/// The part and its image, sewn along plane `k`. @returns false when a face of the image is turned over
+bool add_image(Part& part, std::size_t k, const MirrorPlane& plane, const Surface& input, const Topology& t,
+               const NearestSurface& nearest) {
+    const int n = part.mesh.surface.n_nodes(), n_faces = part.mesh.surface.n_faces();
+    std::vector<int> image(n);
+    for (int v = 0; v < n; ++v) {
+        image[v] = v;
+        if (part.on_plane[k][v]) continue;
+        const Vector3d x = plane.mirror(part.mesh.surface.x[v]);
+        const SurfacePoint p = part.on_rim[v] ? nearest_on_rim(input, t, x) : nearest_point(input, t, nearest.point(x).face, x);
+        image[v] = part.mesh.surface.n_nodes();
+        part.mesh.surface.x.push_back(point_at(input, p));
+        part.mesh.source.push_back(p);
+        part.on_rim.push_back(part.on_rim[v]);
+        for (auto& on : part.on_plane) on.push_back(on[v]);
     }
-    const auto crossed = [&](int e) {
-        return (height[t.edges[e].node[0]] >= 0) != (height[t.edges[e].node[1]] >= 0);
-    };
-    const auto point_on = [&](int e) {
-        const auto [a, b] = t.edges[e].node;
-        return CurvePoint{a, b, std::abs(height[a]) / (std::abs(height[a]) + std::abs(height[b]))};
-    };
-    std::vector<char> done(t.edges.size(), 0);
-    const auto follow = [&](int first) {   // every face that is cut has two crossed edges
-        Curve curve{point_on(first)};
-        done[first] = 1;
-        int e = first, f = t.edges[first].face[0];
-        while (f >= 0) {
-            int next = -1;
-            for (int g : t.face_edges[f])
-                if (g != e && crossed(g)) next = g;
-            if (next < 0) break;
-            curve.push_back(point_on(next));
-            if (next == first || done[next]) break;
-            done[next] = 1;
-            f = t.edges[next].face[0] == f ? t.edges[next].face[1] : t.edges[next].face[0];
-            e = next;
-        }
-        return curve;
-    };
-    std::vector<Curve> curves;
-    for (int open = 1; open >= 0; --open)   // those that begin at a rim first
-        for (std::size_t e = 0; e < t.edges.size(); ++e)
-            if (!done[e] && crossed(static_cast<int>(e)) && (!open || t.edges[e].is_boundary()))
-                curves.push_back(follow(static_cast<int>(e)));
-    return curves;
+    bool sound = true;
+    for (int f = 0; f < n_faces; ++f) {
+        const arcsim::Triangle u = part.mesh.surface.faces[f];
+        part.mesh.surface.faces.push_back({image[u[0]], image[u[2]], image[u[1]]});
+        const int g = part.mesh.surface.n_faces() - 1;
+        const int near = part.mesh.source[image[u[0]]].face;
+        part.mesh.source_face.push_back(nearest_point(input, t, near, arcsim::face_centroid(part.mesh.surface, g)).face);
+        const Vector3d normal = arcsim::area_vector(part.mesh.surface, g);
+        sound = sound && normal.dot(arcsim::face_normal(input, part.mesh.source_face.back())) >= 0.3 * normal.norm();
+    }
+    for (std::size_t i = 0, size = part.seams.size(); i < size; ++i)
+        part.seams.emplace_back(image[part.seams[i].first], image[part.seams[i].second]);
+    return sound;
 }
 
-MirroredMesh mirror_half(const CutMesh& cut, const std::vector<char>& kept, const Surface& input, const Topology& t,
-                         const MirrorPlane& plane) {
-    const Surface& s = cut.surface();
-    std::vector<char> in_half(s.x.size(), 0), shared(s.x.size(), 0), on_rim(s.x.size(), 0);
-    for (int f = 0; f < s.n_faces(); ++f)
-        for (int k = 0; k < 3; ++k)
-            if (kept[f]) in_half[s.faces[f][k]] = 1;
-    for (int f = 0; f < s.n_faces(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const int a = s.faces[f][k], b = s.faces[f][(k + 1) % 3];
-            if (!kept[f] && in_half[a]) shared[a] = 1;
-            if (cut.face_left(b, a) < 0) on_rim[a] = on_rim[b] = 1;
-        }
+}  // namespace
+
+MirroredMesh mirror_part(const CutMesh& cut, const std::vector<char>& is_kept, const Surface& input, const Topology& t,
+                         const std::vector<MirrorPlane>& planes) {
+    Part part = take_part(cut, is_kept, planes);
     const NearestSurface nearest(input, t);
-    const auto on_input = [&](int v) {
-        const Vector3d x = plane.mirror(s.x[v]);
-        const NearestSurface::Hit hit = nearest.point(x);
-        SurfacePoint p = nearest_point(input, t, hit.face, x);
-        if (!on_rim[v]) return p;
-        double least = 1e300;   // the nearest point of the rim
-        for (const arcsim::Edge& e : t.edges) {
-            if (!e.is_boundary()) continue;
-            const Vector3d a = input.x[e.node[0]], d = input.x[e.node[1]] - a;
-            const double u = std::clamp((x - a).dot(d) / d.squaredNorm(), 0., 1.), off = (a + u * d - x).squaredNorm();
-            if (off >= least) continue;
-            least = off;
-            p.face = e.face[0];
-            p.barycentric = {0, 0, 0};
-            p.barycentric[(e.corner[0] + 1) % 3] = 1 - u;
-            p.barycentric[(e.corner[0] + 2) % 3] = u;
-        }
-        return p;
-    };
     MirroredMesh m;
-    std::vector<std::array<int, 2>> number(s.x.size(), {-1, -1});
-    const auto add = [&](const Vector3d& x, const SurfacePoint& p) {
-        m.surface.x.push_back(x);
-        m.source.push_back(p);
-        return m.surface.n_nodes() - 1;
-    };
-    for (int v = 0; v < s.n_nodes(); ++v)
-        if (in_half[v]) number[v][0] = number[v][1] = add(s.x[v], cut.source()[v]);
-    for (int v = 0; v < s.n_nodes(); ++v)
-        if (in_half[v] && !shared[v]) {
-            const SurfacePoint p = on_input(v);
-            number[v][1] = add(point_at(input, p), p);
-        }
-    for (int side = 0; side < 2; ++side)
-        for (int f = 0; f < s.n_faces(); ++f) {
-            if (!kept[f]) continue;
-            arcsim::Triangle u;
-            for (int k = 0; k < 3; ++k) u[k] = number[s.faces[f][k]][side];
-            if (side == 1) std::swap(u[1], u[2]);
-            m.surface.faces.push_back(u);
-        }
-    const int half = m.surface.n_faces() / 2;
-    for (int f = 0; f < 2 * half; ++f) m.face_image.push_back(f < half ? f + half : f - half);
-    m.is_sound = std::abs(arcsim::total_area(m.surface) / arcsim::total_area(input) - 1) < 0.01;
-    for (int f = 0; f < s.n_faces(); ++f)
-        if (kept[f]) m.source_face.push_back(cut.source_face()[f]);
-    for (int f = half; f < 2 * half; ++f) {
-        const Vector3d c = arcsim::face_centroid(m.surface, f);
-        const arcsim::Triangle& u = m.surface.faces[f];
-        m.source_face.push_back(nearest_point(input, t, m.source[u[0]].face, c).face);
-        const Vector3d n = arcsim::area_vector(m.surface, f);
-        if (n.dot(arcsim::face_normal(input, m.source_face.back())) < 0.3 * n.norm()) m.is_sound = false;
+    m.is_sound = true;
+    m.face_image.resize(planes.size());
+    for (std::size_t k = 0; k < planes.size(); ++k) {
+        const int n = part.mesh.surface.n_faces();
+        m.is_sound = add_image(part, k, planes[k], input, t, nearest) && m.is_sound;
+        for (std::size_t j = 0; j < k; ++j)   // images across the earlier planes, in the new half as in the old one
+            for (int f = 0; f < n; ++f) m.face_image[j].push_back(m.face_image[j][f] + n);
+        for (int f = 0; f < 2 * n; ++f) m.face_image[k].push_back(f < n ? f + n : f - n);
     }
+    m.mesh = std::move(part.mesh);
     std::set<std::pair<int, int>> seams;
-    for (int f = 0; f < s.n_faces(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const int a = s.faces[f][k], b = s.faces[f][(k + 1) % 3];
-            if (!kept[f] || !cut.is_seam(a, b)) continue;
-            for (int side = 0; side < 2; ++side) seams.insert(std::minmax(number[a][side], number[b][side]));
-        }
+    for (const auto& [a, b] : part.seams) seams.insert(std::minmax(a, b));
     m.seams.assign(seams.begin(), seams.end());
+    m.is_sound = m.is_sound && std::abs(arcsim::total_area(m.mesh.surface) / arcsim::total_area(input) - 1) < 0.01;
     return m;
 }
 

@@ -90,8 +90,7 @@ PanelPatch extract_patch(const CutMesh& cut, const std::vector<int>& faces) {
     const Surface& s = cut.surface();
     PanelPatch p;
     p.face = faces;
-    std::unordered_map<int, int> local;
-    local.reserve(2 * faces.size());
+    std::vector<int> local(s.faces.size(), -1);
     for (std::size_t i = 0; i < faces.size(); ++i) local[faces[i]] = static_cast<int>(i);
     std::vector<int> parent(3 * faces.size());   // corners, joined over inner edges that are no seams
     std::iota(parent.begin(), parent.end(), 0);
@@ -99,12 +98,12 @@ PanelPatch extract_patch(const CutMesh& cut, const std::vector<int>& faces) {
         const arcsim::Triangle& t = s.faces[faces[i]];
         for (int k = 0; k < 3; ++k) {
             const int a = t[k], b = t[(k + 1) % 3];
-            const auto it = local.find(cut.face_left(b, a));
-            if (it == local.end() || cut.is_seam(a, b)) continue;
-            const arcsim::Triangle& u = s.faces[faces[it->second]];
+            const int left = cut.face_left(b, a), there_face = left < 0 ? -1 : local[left];
+            if (there_face < 0 || cut.is_seam(a, b)) continue;
+            const arcsim::Triangle& u = s.faces[left];
             for (int end : {a, b}) {
                 const int here = find_root(parent, 3 * static_cast<int>(i) + corner_of(t, end));
-                const int there = find_root(parent, 3 * it->second + corner_of(u, end));
+                const int there = find_root(parent, 3 * there_face + corner_of(u, end));
                 parent[std::max(here, there)] = std::min(here, there);
             }
         }

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "arcsim/base/error.hpp"
-#include "formwork/flatten/flatten.hpp"
 
 namespace formwork {
 namespace {
@@ -12,6 +11,28 @@ namespace {
 constexpr double hopeless = 2.5;   // times the allowed stretch: such an estimate needs no flattening to be believed
 constexpr double usual_calibration = 0.75;   // measured stretch over estimate, typical of panels of mixed shape
 constexpr int estimate_cells = 400;
+
+bool cross(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
+    const auto side = [](const Vector2d& p, const Vector2d& q, const Vector2d& x) {
+        return (q - p).x() * (x - p).y() - (q - p).y() * (x - p).x() > 0;
+    };
+    return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
+}
+
+/// Whether two edges of a flat outline cross; edges that follow each other do not count.
+bool crosses_itself(const std::vector<int>& loop, const std::vector<Vector2d>& u) {
+    const std::size_t n = loop.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vector2d &a = u[loop[i]], &b = u[loop[(i + 1) % n]];
+        const Vector2d low = a.cwiseMin(b), high = a.cwiseMax(b);
+        for (std::size_t j = i + 2; j < n - (i == 0); ++j) {
+            const Vector2d &c = u[loop[j]], &d = u[loop[(j + 1) % n]];
+            if ((c.cwiseMax(d).array() < low.array()).any() || (c.cwiseMin(d).array() > high.array()).any()) continue;
+            if (cross(a, b, c, d)) return true;
+        }
+    }
+    return false;
+}
 
 }  // namespace
 
@@ -34,7 +55,9 @@ void measure_flat(const PanelPatch& patch, const SplitRules& rules, PanelQuality
     q.is_flattened = true;
     if (q.estimate < 1e-3 * rules.max_distortion) return;
     try {
-        q.p95 = flatten_disk(patch.surface, FlattenParams::fast()).stretch.p95;
+        const FlattenResult flat = flatten_disk(patch.surface, rules.flattening);
+        q.p95 = flat.stretch.p95;
+        q.overlaps = crosses_itself(patch.topology.boundary_loops.front(), flat.u);
     } catch (const arcsim::NumericalError&) {   // cannot be laid flat without folds: as bad as it gets
         q.p95 = std::max(q.estimate, hopeless * rules.max_distortion);
     }
@@ -46,11 +69,11 @@ double calibration_of(const PanelQuality& q) {
 
 double excess_of(const PanelQuality& q, const SplitRules& rules) {
     if (!q.is_disk) return 10 * q.area;
-    return q.area * std::max(0., q.p95 / rules.max_distortion - 1);
+    return q.area * (std::max(0., q.p95 / rules.max_distortion - 1) + q.overlaps);
 }
 
 bool keeps_bounds(const PanelQuality& q, const SplitRules& rules) {
-    return q.is_disk && q.p95 <= rules.max_distortion && q.corners <= rules.max_corners && q.width >= rules.min_width;
+    return q.is_disk && !q.overlaps && q.p95 <= rules.max_distortion && q.corners <= rules.max_corners && q.width >= rules.min_width;
 }
 
 double panel_cost(const PanelQuality& q, const SplitRules& rules) {
@@ -58,6 +81,7 @@ double panel_cost(const PanelQuality& q, const SplitRules& rules) {
     if (!q.is_disk) return 10 * violation;
     double cost = 1;
     if (q.p95 > rules.max_distortion) cost += violation + violation * std::min(most_excess, q.p95 / rules.max_distortion - 1);
+    if (q.overlaps) cost += violation;
     if (q.corners > rules.max_corners) cost += violation;
     if (q.width < rules.min_width) cost += violation;
     if (q.shape.sharpest < least_tip) cost += tip * (2 - q.shape.sharpest / least_tip);

@@ -12,6 +12,7 @@ struct PanelQuality {
     double estimate = 0;         // of the stretch, before flattening
     bool is_flattened = false;   // p95 is measured, not derived from the estimate
     double p95 = 0;              // stretch of the flat pattern that 95 % of the area stays below
+    bool overlaps = false;       // its flat outline crosses itself: it cannot be cut from one sheet
     int corners = 0;
     double width = 0;            // m
     OutlineShape shape;
@@ -20,7 +21,8 @@ struct PanelQuality {
 /// Everything but the flat pattern; the stretch is the estimate times `calibration`.
 PanelQuality look_at(const PanelPatch& patch, const SplitRules& rules, double calibration);
 
-/// Replaces the derived stretch by that of a short flattening, unless it is hopeless anyway.
+/// Replaces the derived stretch by that of a flattening, and looks whether the outline crosses itself; not for panels that
+/// are hopeless anyway.
 void measure_flat(const PanelPatch& patch, const SplitRules& rules, PanelQuality& q);
 
 /// Measured stretch over estimate; a typical value for panels that were not laid flat.

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "formwork/flatten/flatten.hpp"
 #include "formwork/segment/field_graph.hpp"
 #include "formwork/segment/panel_patch.hpp"
 #include "formwork/segment/stretch_estimate.hpp"
@@ -16,6 +17,7 @@ struct SplitRules {
     int max_corners = 6;
     int trials = 24;                // seeds of candidate curves per panel
     double spacing = 0;             // m between the middles of different cuts; 0: a quarter of min_width
+    FlattenParams flattening = FlattenParams::fast();   // by which panels are judged
     double calibration = 1;         // stretch of the panel laid flat over its estimate: corrects the pieces' estimates
 };
 

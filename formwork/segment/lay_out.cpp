@@ -1,0 +1,197 @@
+#include "formwork/segment/lay_out.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+#include "arcsim/base/error.hpp"
+#include "formwork/segment/mesh_repair.hpp"
+#include "formwork/segment/mirror_layout.hpp"
+#include "formwork/segment/seam_chains.hpp"
+#include "formwork/segment/search_mesh.hpp"
+#include "formwork/segment/surface_curve.hpp"
+
+namespace formwork {
+namespace {
+
+constexpr int enough_faces = 6000;       // for a layout of few panels: more only cost time
+constexpr int faces_per_panel = 200;
+constexpr int repair_rounds = 2;
+constexpr FlattenParams thorough{60, 1e-4};   // p95 is settled to a few thousandths of itself
+constexpr double margin = 0.95, polish_margin = 0.97;   // of the bound, in the search: what is done to the mesh later costs some
+
+/// The mesh that the layout is searched on.
+struct Base {
+    MeshOnInput mesh;
+    Topology topology;
+    bool is_coarse = false;
+};
+
+Base whole_mesh(const LayoutJob& job) {
+    std::vector<int> same(job.s.faces.size());
+    std::iota(same.begin(), same.end(), 0);
+    return {{job.s, CutMesh(job.s).source(), std::move(same)}, job.topology, false};
+}
+
+/// Strokes are followed edge by edge: they need the mesh as it is.
+Base base_mesh(const LayoutJob& job) {
+    const int target = std::max(enough_faces, faces_per_panel * job.params.max_panels);
+    if (2 * job.s.n_faces() < 3 * target || !job.strokes.empty()) return whole_mesh(job);
+    SearchMesh coarse = search_mesh(job.s, job.topology, target);
+    Topology topology = arcsim::build_topology(coarse.surface, "segment");
+    return {{std::move(coarse.surface), std::move(coarse.source), std::move(coarse.source_face)}, std::move(topology), true};
+}
+
+/// Strict by turns: while seams are looked for, while they are polished, and for the verdict.
+enum class Stage { search, polish, verdict };
+
+Layout layout_on(const LayoutJob& job, CutMesh cut, int max_panels, Stage stage) {
+    SplitRules rules = job.rules;
+    if (stage != Stage::search) rules.flattening = thorough;
+    if (stage != Stage::verdict) rules.max_distortion *= stage == Stage::search ? margin : polish_margin;
+    return {job.s, job.field.theta, job.data, rules, {max_panels}, std::move(cut)};
+}
+
+CutMesh uncut(const LayoutJob& job, const MeshOnInput& mesh) { return {job.s, mesh.surface, mesh.source, mesh.source_face}; }
+
+/// The node of the mesh at each singularity of the input, or the one nearest to it where the mesh has nodes of its own.
+std::vector<int> singular_nodes(const LayoutJob& job, const Surface& mesh) {
+    std::vector<int> nodes;
+    for (const Singularity& q : job.singularities) {
+        const Vector3d x = job.s.x[q.node];
+        const auto nearer = [&](const Vector3d& a, const Vector3d& b) { return (a - x).squaredNorm() < (b - x).squaredNorm(); };
+        nodes.push_back(static_cast<int>(std::min_element(mesh.x.begin(), mesh.x.end(), nearer) - mesh.x.begin()));
+    }
+    return nodes;
+}
+
+/// The cut mesh with straight seams and without thin faces.
+CutMesh mended(const LayoutJob& job, const CutMesh& cut, std::vector<int>& singular) {
+    RepairedMesh mesh = repair_mesh(cut, job.s, job.topology, singular);
+    for (int& v : singular) v = mesh.node[v];
+    CutMesh whole(job.s, std::move(mesh.surface), std::move(mesh.source), std::move(mesh.source_face));
+    for (std::size_t i = 0; i < mesh.seams.size(); ++i) whole.mark_seam(mesh.seams[i].first, mesh.seams[i].second, mesh.given[i]);
+    return whole;
+}
+
+/// Mends and judges by turns: a straightened seam lies elsewhere by a part of an edge, and panels that no longer keep the
+/// bounds after that are laid out anew. @param planes  the search stays on their positive sides
+Layout polished(const LayoutJob& job, const CutMesh& cut, int max_panels, std::vector<int>& singular,
+                const std::vector<MirrorPlane>& planes = {}) {
+    std::optional<Layout> layout;
+    for (int round = 0;; ++round) {
+        layout.emplace(layout_on(job, mended(job, layout ? layout->cut() : cut, singular), max_panels, Stage::polish));
+        for (const MirrorPlane& plane : planes) layout->keep_one_side(plane.point, plane.normal);
+        if (round == repair_rounds || !layout->rework()) return std::move(*layout);
+    }
+}
+
+Layout free_layout(const LayoutJob& job, const Base& base) {
+    Layout layout = layout_on(job, uncut(job, base.mesh), job.params.max_panels, Stage::search);
+    for (std::size_t i = 0; i < job.strokes.size(); ++i)
+        if (!layout.add_curve(stroke_curve(layout, job.strokes[i], static_cast<int>(i)), true))
+            throw arcsim::InputError("segment: stroke " + std::to_string(i + 1) + " crosses itself. Draw it as several strokes.");
+    layout.search();
+    std::vector<int> singular = singular_nodes(job, layout.cut().surface());
+    return polished(job, layout.cut(), job.params.max_panels, singular);
+}
+
+/// The layout of the part on one side of all planes, and its mirror images; nothing when they do not fit.
+std::optional<Layout> mirrored_layout(const LayoutJob& job, const Base& base, const std::vector<MirrorPlane>& planes) {
+    MeshOnInput settled = base.mesh;
+    for (const MirrorPlane& plane : planes) settle_on_plane(settled, base.topology, plane, job.s, job.topology);
+    const int max_panels = std::max(1, job.params.max_panels >> planes.size());
+    Layout part = layout_on(job, uncut(job, settled), max_panels, Stage::search);
+    for (const MirrorPlane& plane : planes) {
+        const Surface mesh = part.cut().surface();
+        const Topology topology = arcsim::build_topology(mesh, "segment");
+        for (Curve& curve : plane_curves(mesh, topology, plane)) {
+            snap_curve(topology, curve, 0.1);
+            if (curve.size() < 3 || !part.add_curve(curve, false)) return {};
+        }
+    }
+    for (const MirrorPlane& plane : planes) part.keep_one_side(plane.point, plane.normal);
+    if (part.n_panels() == 0) return {};
+    part.search();
+    std::vector<int> singular = singular_nodes(job, part.cut().surface());
+    part = polished(job, part.cut(), max_panels, singular, planes);
+    MirroredMesh whole = mirror_part(part.cut(), part.kept_faces(), job.s, job.topology, planes);
+    if (!whole.is_sound) return {};
+    CutMesh cut = uncut(job, whole.mesh);
+    for (const auto& [a, b] : whole.seams) cut.mark_seam(a, b);
+    Layout layout = layout_on(job, std::move(cut), job.params.max_panels, Stage::polish);
+    for (const std::vector<int>& image : whole.face_image) layout.merge_images(image);
+    return layout;
+}
+
+/// The planes themselves, and pairs of them at right angles.
+std::vector<std::vector<MirrorPlane>> plane_sets(const LayoutJob& job) {
+    std::vector<std::vector<MirrorPlane>> sets;
+    if (job.params.symmetry != Symmetry::detect || !job.strokes.empty() || job.params.max_panels < 2) return sets;
+    std::vector<MirrorPlane> planes = find_mirror_planes(job.s, job.topology);
+    const double close = 0.25 * arcsim::mean_edge_length(job.s);
+    std::erase_if(planes, [&](const MirrorPlane& p) { return p.deviation >= close; });
+    if (planes.empty()) return sets;
+    sets.push_back({planes[0]});
+    for (std::size_t i = 1; i < planes.size() && job.params.max_panels >= 4; ++i)
+        if (std::abs(planes[0].normal.dot(planes[i].normal)) < 0.02) {
+            sets.push_back({planes[0], planes[i]});
+            break;
+        }
+    return sets;
+}
+
+/// The cheapest of a free layout and those that keep mirror planes. A symmetric bag is worth some panels.
+CutMesh best_layout(const LayoutJob& job, const Base& base) {
+    constexpr double worth_of_symmetry = 2;   // times the free layout's cost
+    const auto judged = [&](const Layout& layout) { return layout_on(job, layout.cut(), job.params.max_panels, Stage::verdict); };
+    std::optional<Layout> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& planes : plane_sets(job)) {
+        const auto found = mirrored_layout(job, base, planes);
+        if (!found) continue;
+        Layout layout = judged(*found);
+        if (layout.n_panels() < 2 || layout.cost() >= least) continue;
+        least = layout.cost();
+        best.emplace(std::move(layout));
+    }
+    if (best && best->keeps_bounds()) return best->cut();
+    Layout free = judged(free_layout(job, base));
+    return best && least < worth_of_symmetry * free.cost() ? best->cut() : free.cut();
+}
+
+/// Everything that the next stages ask for.
+Segmentation hand_over(const LayoutJob& job, const CutMesh& cut) {
+    std::vector<int> singular = singular_nodes(job, cut.surface());
+    Layout layout = layout_on(job, mended(job, cut, singular), job.params.max_panels, Stage::verdict);
+    Segmentation r;
+    r.field = job.field;
+    r.singularities = job.singularities;
+    for (std::size_t i = 0; i < singular.size(); ++i) r.singularities[i].node = singular[i];
+    r.mesh = layout.cut().surface();
+    r.source = layout.cut().source();
+    r.source_face = layout.cut().source_face();
+    r.panel = label_panels(layout.cut(), r.n_panels);
+    r.seams = collect_seams(layout.cut(), r.panel);
+    SurfaceField on_cut = layout.field_on(r.mesh, r.source_face);
+    r.field_theta = std::move(on_cut.theta);
+    r.direction = std::move(on_cut.data);
+    r.violations = layout.violations();
+    return r;
+}
+
+}  // namespace
+
+Segmentation lay_out(const LayoutJob& job) {
+    const Base base = base_mesh(job);
+    const CutMesh found = best_layout(job, base);
+    if (!base.is_coarse) return hand_over(job, found);
+    int n = 0;
+    const std::vector<int> panel = label_panels(found, n);
+    if (auto cut = transfer_seams(found, panel, n, job.s, job.topology)) return hand_over(job, *cut);
+    return hand_over(job, best_layout(job, whole_mesh(job)));   // panels too narrow for the coarse mesh
+}
+
+}  // namespace formwork
