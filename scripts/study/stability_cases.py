@@ -163,7 +163,7 @@ def cases(folder):
     shape = lambda depth, tolerance, source: {"shape": depth, "tolerance": tolerance, "source": source}
     error = lambda *words: {"error": words}
     b6 = "axisymmetric reference, error < 1e-8"
-    sewn = lambda **more: scene(ISO300, segment={"min_width": 0.02}, panels={"max_distortion": 1},
+    sewn = lambda **more: scene(ISO300, segment={"min_width": 0.02, "max_distortion": 0.1}, panels={"max_distortion": 1},
                                 sew={"material": {"model": "isotropic", **{k: ISO300[k] for k in ("rest", "max")}}, "stitch_stiffness": 5e5, "seam_stiffness": 5e5, **more},
                                 fixed=[{"boundary": "top"}])
     in_steps = scene(ISO300_CONST)
