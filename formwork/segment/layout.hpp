@@ -33,7 +33,7 @@ public:
     void search();
     /// Splits what is no disk or does not lie flat within the bound. @returns whether a seam was added
     bool refine();
-    /// Lays out anew, with some of its neighbours, every panel that is out of bounds. @returns whether that changed anything
+    /// Lays out anew, with some of its neighbours, every panel that is out of bounds or hard to sew. @returns whether that changed anything
     bool rework();
     /// Leaves out of the search every panel that lies on the far side of a plane.
     void keep_one_side(const Vector3d& point, const Vector3d& normal);

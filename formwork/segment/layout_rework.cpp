@@ -13,9 +13,11 @@ namespace {
 
 constexpr int first_cuts = 4;          // that a new layout of a group is begun with
 constexpr double most_work = 30;       // faces that are laid out anew, all groups and cuts, over the mesh's
+constexpr double taste_work = 10;      // the part of it that may go into panels that only look bad
+constexpr double bad_taste = 0.25;     // in panels: what a panel's outline costs
 constexpr int most_neighbours = 3;     // of a panel, longest border first, that are joined one or two at a time
 constexpr double far_apart = 0.12;     // of the group's size: distance between the first cuts' middles
-constexpr double largest_group = 0.35; // of the surface
+constexpr double largest_group = 0.6;  // of the surface
 
 }  // namespace
 
@@ -125,23 +127,25 @@ void Layout::restore(const State& s) {
     panels_ = s.panels;
 }
 
-/// Groups around every panel that is out of bounds, the worst first, until all keep them or nothing helps.
+/// Groups around every panel that is out of bounds or hard to sew, the worst first, until none is left or nothing helps.
 bool Layout::rework() {
     bool any = false;
-    double left = most_work * cut_.surface().n_faces();
+    const double all = most_work * cut_.surface().n_faces();
+    double left = all;
     std::set<std::vector<std::pair<int, double>>> tried;   // panels of a group and their areas
     for (bool changed = true; changed && left > 0;) {
         changed = false;
         std::vector<std::pair<double, int>> order;
         for (int p = 0; p < static_cast<int>(panels_.size()); ++p)
-            if (panels_[p].alive && !panels_[p].frozen && !formwork::keeps_bounds(quality(p), rules_))
+            if (panels_[p].alive && !panels_[p].frozen && panel_cost(quality(p), rules_) > 1 + bad_taste)
                 order.emplace_back(-panel_cost(quality(p), rules_), p);
         std::sort(order.begin(), order.end());
         for (const auto& [weight, seed] : order) {
+            const double least_left = formwork::keeps_bounds(quality(seed), rules_) ? all - taste_work * cut_.surface().n_faces() : 0;
             for (const auto& group : groups_around(seed)) {
                 std::vector<std::pair<int, double>> key;
                 for (int p : group) key.emplace_back(p, quality(p).area);
-                if (left <= 0 || !tried.insert(key).second) continue;
+                if (left <= least_left || !tried.insert(key).second) continue;
                 if (!rework(group, left)) continue;
                 any = changed = true;
                 break;

@@ -137,6 +137,7 @@ bool Layout::try_merge(int a, int b, const Border& border) {
     if (q.p95 > 1.4 * allowed) return false;
     formwork::measure_flat(patch, rules_, q);
     if (q.p95 > allowed || (q.overlaps && a != b)) return false;
+    if (q.solidity < std::min({least_solidity, quality(a).solidity, quality(b).solidity})) return false;
     for (const auto& [i, j] : border.edges) cut_.unmark_seam(i, j);
     for (int f : faces) panel_[f] = a;
     if (a != b) panels_[b].alive = false;

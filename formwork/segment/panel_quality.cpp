@@ -34,6 +34,33 @@ bool crosses_itself(const std::vector<int>& loop, const std::vector<Vector2d>& u
     return false;
 }
 
+/// Area of a flat outline over that of its convex hull (Andrew's monotone chain).
+double solidity_of(const std::vector<int>& loop, const std::vector<Vector2d>& u) {
+    const auto turn = [](const Vector2d& a, const Vector2d& b, const Vector2d& c) {
+        return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
+    };
+    std::vector<Vector2d> points;
+    double area = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        points.push_back(u[loop[i]]);
+        area += turn(Vector2d::Zero(), u[loop[i]], u[loop[(i + 1) % loop.size()]]);
+    }
+    std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
+        return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+    });
+    double hull = 0;   // twice its area, like the other
+    for (int half = 0; half < 2; ++half) {
+        std::vector<Vector2d> chain;
+        for (const Vector2d& p : points) {
+            while (chain.size() > 1 && turn(chain[chain.size() - 2], chain.back(), p) <= 0) chain.pop_back();
+            chain.push_back(p);
+        }
+        for (std::size_t i = 0; i + 1 < chain.size(); ++i) hull += turn(Vector2d::Zero(), chain[i], chain[i + 1]);
+        std::reverse(points.begin(), points.end());
+    }
+    return hull > 0 ? std::abs(area) / hull : 1;
+}
+
 }  // namespace
 
 PanelQuality look_at(const PanelPatch& patch, const SplitRules& rules, double calibration) {
@@ -53,10 +80,10 @@ PanelQuality look_at(const PanelPatch& patch, const SplitRules& rules, double ca
 void measure_flat(const PanelPatch& patch, const SplitRules& rules, PanelQuality& q) {
     if (!q.is_disk || q.is_flattened || q.p95 > hopeless * rules.max_distortion) return;
     q.is_flattened = true;
-    if (q.estimate < 1e-3 * rules.max_distortion) return;
     try {
         const FlattenResult flat = flatten_disk(patch.surface, rules.flattening);
         q.p95 = flat.stretch.p95;
+        q.solidity = solidity_of(patch.topology.boundary_loops.front(), flat.u);
         q.overlaps = crosses_itself(patch.topology.boundary_loops.front(), flat.u);
     } catch (const arcsim::NumericalError&) {   // cannot be laid flat without folds: as bad as it gets
         q.p95 = std::max(q.estimate, hopeless * rules.max_distortion);
@@ -77,7 +104,7 @@ bool keeps_bounds(const PanelQuality& q, const SplitRules& rules) {
 }
 
 double panel_cost(const PanelQuality& q, const SplitRules& rules) {
-    constexpr double violation = 10, most_excess = 10, tip = 0.5, least_tip = 0.4 /* rad */, inner_corner = 0.3;
+    constexpr double violation = 10, most_excess = 10, tip = 0.5, least_tip = 0.4 /* rad */, inner_corner = 0.3, hook = 5;
     if (!q.is_disk) return 10 * violation;
     double cost = 1;
     if (q.p95 > rules.max_distortion) cost += violation + violation * std::min(most_excess, q.p95 / rules.max_distortion - 1);
@@ -85,6 +112,7 @@ double panel_cost(const PanelQuality& q, const SplitRules& rules) {
     if (q.corners > rules.max_corners) cost += violation;
     if (q.width < rules.min_width) cost += violation;
     if (q.shape.sharpest < least_tip) cost += tip * (2 - q.shape.sharpest / least_tip);
+    cost += hook * std::max(0., least_solidity - q.solidity);
     return cost + inner_corner * q.shape.inner_corners;
 }
 

@@ -13,6 +13,7 @@ struct PanelQuality {
     bool is_flattened = false;   // p95 is measured, not derived from the estimate
     double p95 = 0;              // stretch of the flat pattern that 95 % of the area stays below
     bool overlaps = false;       // its flat outline crosses itself: it cannot be cut from one sheet
+    double solidity = 1;         // area of the flat piece over that of its convex hull: snakes and hooks waste cloth
     int corners = 0;
     double width = 0;            // m
     OutlineShape shape;
@@ -34,7 +35,11 @@ double excess_of(const PanelQuality& q, const SplitRules& rules);
 /// A disk with few corners that lies flat within the bound.
 bool keeps_bounds(const PanelQuality& q, const SplitRules& rules);
 
-/// What a panel costs in a layout, in panels: 1, and more for bounds that are not kept, thin tips and inner corners.
+/// A hook or snake: cloth is wasted around it, and it is hard to sew in.
+constexpr double least_solidity = 0.65;
+
+/// What a panel costs in a layout, in panels: 1, and more for bounds that are not kept, thin tips, inner corners
+/// and hooks.
 double panel_cost(const PanelQuality& q, const SplitRules& rules);
 
 }  // namespace formwork
