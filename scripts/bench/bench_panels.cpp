@@ -12,6 +12,7 @@
 #include "formwork/flatten/flatten.hpp"
 #include "formwork/panels/cut_panels.hpp"
 #include "formwork/panels/pattern_files.hpp"
+#include "formwork/stages/segmentation_file.hpp"
 #include "formwork/segment/direction_data.hpp"
 #include "formwork/segment/segment.hpp"
 
@@ -54,6 +55,15 @@ Alone flatten_alone(const Segmentation& s, PanelSet set) {
 }  // namespace
 
 int main(int argc, char** argv) try {
+    if (argc == 2) {   // a folder of `formwork run`: its panels each laid flat alone
+        const Segmentation s = read_segmentation(std::filesystem::path(argv[1]) / "segment");
+        PanelParams panel_params;
+        panel_params.max_seam_mismatch = panel_params.max_distortion = 1;
+        const Alone alone = flatten_alone(s, make_panels(s, panel_params));
+        std::cout << "folder,alone_symD,alone_mean,alone_mismatch\n"
+                  << argv[1] << ',' << alone.symmetric_dirichlet << ',' << alone.mean << ',' << alone.mismatch << '\n';
+        return 0;
+    }
     if (argc < 3) {
         std::cout << "mesh,faces,panels,seam_m,alone_mean,alone_symD,alone_within5,alone_mismatch,mean,symD,within5,p95_worst,max,mismatch,"
                      "flips,overlaps,grain_deg,utilisation,segment_s,panels_s,pattern_s\n";

@@ -1,10 +1,9 @@
 // Lays a disk flat with CGAL's parameterisations, for scripts/compare_flattening; no part of the product.
 //
-//   flatten_with_cgal METHOD FILE.off > UV.txt     METHOD: arap | lscm | conformal; one line "u v" per vertex
+//   flatten_with_cgal METHOD FILE.off > UV.txt     METHOD: arap | lscm; one line "u v" per vertex
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/ARAP_parameterizer_3.h>
-#include <CGAL/Surface_mesh_parameterization/Discrete_conformal_map_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/LSCM_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/parameterize.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -23,10 +22,8 @@ int main(int argc, char** argv) {
     std::ifstream(argv[2]) >> mesh;
     const auto border = CGAL::Polygon_mesh_processing::longest_border(mesh).first;
     auto uv = mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_2>("v:uv").first;
-    const std::string method = argv[1];
-    const smp::Error_code error = method == "arap"   ? smp::parameterize(mesh, smp::ARAP_parameterizer_3<Mesh>(), border, uv)
-                                  : method == "lscm" ? smp::parameterize(mesh, smp::LSCM_parameterizer_3<Mesh>(), border, uv)
-                                                     : smp::parameterize(mesh, smp::Discrete_conformal_map_parameterizer_3<Mesh>(), border, uv);
+    const smp::Error_code error = std::string(argv[1]) == "arap" ? smp::parameterize(mesh, smp::ARAP_parameterizer_3<Mesh>(), border, uv)
+                                                                 : smp::parameterize(mesh, smp::LSCM_parameterizer_3<Mesh>(), border, uv);
     if (error != smp::OK) {
         std::fprintf(stderr, "%s\n", smp::get_error_message(error));
         return 1;
