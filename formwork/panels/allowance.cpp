@@ -82,6 +82,24 @@ Polygon cut_line(const Polygon& sew, const std::vector<double>& allowance, Corne
     struct Hem {
         std::vector<Polygon> cloth, beyond;   // its ends remove nothing of another hem
     };
+    // Where the seam is a hem's width away from its end at p, or its next corner: near their ends flat seams are often
+    // rounded, and what the folded hem must lie on is the seam as far as it reaches.
+    const auto along_seam = [&](std::size_t p, bool forwards, double width) {
+        constexpr double corner_cosine = 0.87;   // 30°
+        Vector2d before = Vector2d::Zero();
+        double reached = 0;
+        for (std::size_t i = p, k = 0; k < n; ++k) {
+            const std::size_t edge = forwards ? i : (i + n - 1) % n, next = forwards ? (i + 1) % n : edge;
+            const Vector2d step = sew[next] - sew[i];
+            const double length = step.norm();
+            if (is_fold(edge) || step.dot(before) < corner_cosine * length * before.norm()) return sew[i];
+            if (reached + length >= width) return Vector2d(sew[i] + (width - reached) / length * step);
+            reached += length;
+            before = step;
+            i = next;
+        }
+        return sew[p];
+    };
     std::vector<Polygon> parts{sew};
     std::vector<Hem> hems(1);
     for (std::size_t k = 0; k < n; ++k) {
@@ -92,8 +110,16 @@ Polygon cut_line(const Polygon& sew, const std::vector<double>& allowance, Corne
         Hem& hem = hems.back();
         if (allowance[i] > 0) (is_fold(i) ? hem.cloth : parts).push_back(strip(p, b, allowance[i]));
         std::optional<HemEnd> end;
-        if (begins) end = hem_end(p, b, a, outward(p, b), outward(a, p), allowance[last], allowance[i]);
-        if (ends) end = hem_end(p, a, b, outward(a, p), outward(p, b), allowance[i], allowance[last]);
+        Vector2d seam_out(0, 0);
+        if (begins) {
+            const Vector2d from = along_seam(i, false, allowance[i]);
+            seam_out = outward(from, p);
+            end = hem_end(p, b, from, outward(p, b), seam_out, allowance[last], allowance[i]);
+        } else if (ends) {
+            const Vector2d to = along_seam(i, true, allowance[last]);
+            seam_out = outward(p, to);
+            end = hem_end(p, a, to, outward(a, p), seam_out, allowance[i], allowance[last]);
+        }
         if (!end) {
             Polygon w = wedge(a, p, b, allowance[last], allowance[i], corner, mitre_limit);
             if (!w.empty()) (is_fold(i) && is_fold(last) ? hem.cloth : parts).push_back(std::move(w));
@@ -101,9 +127,12 @@ Polygon cut_line(const Polygon& sew, const std::vector<double>& allowance, Corne
         }
         hem.cloth.push_back(end->added());
         hem.beyond.push_back(end->removed());
-        // The seam's own allowance runs on to the fold.
-        const Vector2d seam_out = begins ? outward(a, p) : outward(p, b);
-        parts.push_back({p - seat * seam_out, p + allowance[begins ? last : i] * seam_out, end->at(end->foot, 0)});
+        // The seam's own allowance runs on to the fold: from the strip's end, seated in it, and from the mean direction's.
+        const double width = allowance[begins ? last : i];
+        const Vector2d strip_out = begins ? outward(a, p) : outward(p, b), back = seat * ((begins ? a : b) - p).normalized();
+        const Vector2d foot = end->at(end->foot, 0);
+        parts.push_back({p + back - seat * strip_out, p + back + width * strip_out, p + width * strip_out, foot});
+        parts.push_back({p - seat * seam_out, p + width * seam_out, foot});
     }
     for (const Hem& hem : hems)
         for (Polygon& part : difference(hem.cloth, hem.beyond)) parts.push_back(std::move(part));

@@ -74,6 +74,16 @@ TEST_CASE("a hem's ends are the mirror images of the seams beside it") {
         }
         CHECK(bounding_box(cut).high.y() == Approx(150).margin(1e-3));
     }
+    // Where the seam bends towards its end the allowance stays whole up to the fold, without a slit.
+    const Polygon bent{{-50, 0}, {50, 0}, {52, 90}, {54, 110}, {59, 120}, {-59, 120}, {-54, 110}, {-52, 90}};
+    const Polygon around = cut_line(bent, {10, 10, 10, 10, 30, 10, 10, 10}, Corner::mitre, 2, {0, 0, 0, 0, 1, 0, 0, 0});
+    for (std::size_t i = 1; i < 4; ++i)
+        for (double t = 0.02; t < 1; t += 0.07) {
+            const Vector2d d = (bent[i + 1] - bent[i]).normalized(), p = bent[i] + t * (bent[i + 1] - bent[i]);
+            for (double out = 0.5; out < 10; out += 0.5) CHECK(contains(around, p + out * Vector2d(d.y(), -d.x())));
+        }
+    for (double x = -58; x < 59; x += 4)
+        for (double out = 0.5; out < 30; out += 2) CHECK((contains(around, {x, 120 + out}) || std::abs(x) > 50));
     // Two hems with a dart between them: neither end takes away cloth of the other hem.
     const Polygon darted{{0, 0}, {100, 0}, {100, 80}, {52, 80}, {50, 20}, {48, 80}, {0, 80}};
     const Polygon cut = cut_line(darted, {10, 10, 30, 10, 10, 30, 10}, Corner::mitre, 2, {0, 0, 1, 0, 0, 1, 0});
