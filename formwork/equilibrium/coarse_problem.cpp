@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 
-#include "formwork/equilibrium/prolong.hpp"
 
 namespace formwork {
 namespace {
@@ -56,10 +55,11 @@ CoarseProblem coarse_problem(const EquilibriumProblem& p, const StaticSystem& sy
     return c;
 }
 
-VectorXd fine_positions(const EquilibriumProblem& p, const CoarseProblem& coarse, const VectorXd& coarse_x) {
+VectorXd fine_positions(const EquilibriumProblem& p, const CoarseProblem& coarse, const VectorXd& coarse_x,
+                        Interpolation interpolation) {
     std::vector<Vector3d> u = unflatten(coarse_x);
     for (std::size_t i = 0; i < u.size(); ++i) u[i] -= coarse.mesh.surface.x[i];
-    VectorXd x = flatten(p.rest.x) + flatten(prolong(coarse.mesh, u, p.rest));
+    VectorXd x = flatten(p.rest.x) + flatten(prolong(coarse.mesh, u, p.rest, interpolation));
     for (std::size_t d = 0; d < p.fixed.size(); ++d)
         if (p.fixed[d]) x[static_cast<Eigen::Index>(d)] = p.rest.x[d / 3][static_cast<Eigen::Index>(d % 3)];
     return x;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "formwork/equilibrium/coarse_mesh.hpp"
+#include "formwork/equilibrium/prolong.hpp"
 #include "formwork/equilibrium/static_system.hpp"
 
 namespace formwork {
@@ -16,6 +17,7 @@ struct CoarseProblem {
 CoarseProblem coarse_problem(const EquilibriumProblem& p, const StaticSystem& system);
 
 /// Positions of the fine nodes from those of the coarse ones; held ones stay where they are.
-VectorXd fine_positions(const EquilibriumProblem& p, const CoarseProblem& coarse, const VectorXd& coarse_x);
+VectorXd fine_positions(const EquilibriumProblem& p, const CoarseProblem& coarse, const VectorXd& coarse_x,
+                        Interpolation interpolation);
 
 }  // namespace formwork

@@ -87,7 +87,7 @@ struct EquilibriumResult {
     int vertices = 0, faces = 0, free_dofs = 0;
     double wall_s = 0, cpu_s = 0, peak_rss_mb = 0;
     double fill_level_m = 0;            // coordinate along up; NaN without liquid
-    double depth_m = 0;                 // lowest point below the level; without liquid: below the held nodes
+    double depth_m = 0;                 // lowest point below the level; without liquid: how far it reaches below or above the held nodes
     double depth_below_rim_m = 0;       // lowest point below the mean height of the held nodes
     double volume_m3 = 0;               // of liquid, below the level
     double capacity_m3 = 0;             // enclosed up to the rim plane

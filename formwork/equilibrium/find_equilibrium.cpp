@@ -118,10 +118,10 @@ bool Run::start_from_coarse_mesh() {
             run.from_coarse_ = run.start_from_coarse_mesh();
             if (!run.from_coarse_) run.leave_trivial_branch();
             run.approach({std::max(coarse_tolerance, p_.solver.tolerance), allowed_part * accuracy()});
-            x_ = fine_positions(p_, coarse, run.x_);
             coarse_prestress_part_ = system_.membrane().law().is_tension_field()
                                          ? run.system_.membrane().law().regulariser().Tp / run.system_.scales().tension
                                          : 0;
+            x_ = fine_positions(p_, coarse, run.x_, coarse_prestress_part_ > 0 ? Interpolation::linear : Interpolation::quadratic);
             coarse_iterations_ = run.method_->iterations() + run.coarse_iterations_;
             coarse_factorizations_ = run.method_->factorizations() + run.coarse_factorizations_;
             found = true;

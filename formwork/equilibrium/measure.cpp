@@ -15,11 +15,17 @@ double lowest_point(const VectorXd& x, const Vector3d& up) {
     return low;
 }
 
-/// Volume below the rim plane; of the whole shape when it is closed or nothing is held.
+double highest_point(const VectorXd& x, const Vector3d& up) { return -lowest_point(x, -up); }
+
+/// Volume below the rim plane; of the whole shape when it is closed or nothing is held. Without liquid, between the rim
+/// plane and the bag, on whichever side overpressure has blown it.
 double capacity(const StaticSystem& system, const VectorXd& x) {
     const bool has_rim = !system.is_closed() && std::isfinite(system.rim_height());
-    const double top = has_rim ? system.rim_height() : -lowest_point(x, -system.pressure().up());
-    return system.pressure().totals(x, top).volume;
+    const double highest = highest_point(x, system.pressure().up());
+    if (!has_rim) return system.pressure().totals(x, highest).volume;
+    if (system.has_liquid()) return system.pressure().totals(x, system.rim_height()).volume;
+    const LiquidTotals all = system.pressure().totals(x, highest);
+    return std::abs(all.volume - (highest - system.rim_height()) * all.waterplane);
 }
 
 FaceStrain face_strain(const EquilibriumProblem& p, const MembraneForce& membrane, const VectorXd& x,
@@ -63,7 +69,8 @@ Extent measure_extent(StaticSystem& system, const VectorXd& x) {
     const double low = lowest_point(x, system.pressure().up());
     if (system.has_liquid())
         return {system.pressure().level() - low, system.pressure().totals(x, system.pressure().level()).volume};
-    return {system.rim_height() - low, capacity(system, x)};
+    const double rim = system.rim_height();
+    return {std::max(rim - low, highest_point(x, system.pressure().up()) - rim), capacity(system, x)};
 }
 
 void measure(const EquilibriumProblem& p, StaticSystem& system, const VectorXd& x, EquilibriumResult& r) {

@@ -14,8 +14,8 @@ struct WrinkleCount {
 };
 WrinkleCount count_wrinkles(const MembraneForce& membrane, const VectorXd& x);
 
-/// Depth of the lowest point below the level (without liquid: below the held nodes) and volume of liquid (without liquid:
-/// the capacity).
+/// Depth of the lowest point below the level (without liquid: how far the bag reaches below or above the held nodes) and
+/// volume of liquid (without liquid: the capacity).
 struct Extent {
     double depth = 0, volume = 0;
 };

@@ -12,7 +12,7 @@ using arcsim::PcgStatus;
 namespace {
 
 constexpr int pcg_limit = 60;            // beyond, a new factor is cheaper
-constexpr int pcg_refactor_next = 14;     // beyond, the next step gets a new factor
+constexpr int pcg_refactor_next = 24;    // beyond, the next step gets a new factor
 constexpr double fade_below = 1e-6;      // of T*: smaller regularisations are set to nothing
 constexpr double wake_at = 1e-4;         // of T*: the first one tried where the tangent is not definite
 constexpr double largest_step = 0.5;     // of the rest shape's half width per Newton step

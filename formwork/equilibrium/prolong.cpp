@@ -85,13 +85,15 @@ Vector3d weights_in(const Surface& s, int f, const Vector3d& x, double& distance
 
 }  // namespace
 
-std::vector<Vector3d> prolong(const CoarseMesh& coarse, const std::vector<Vector3d>& u, const Surface& fine) {
+std::vector<Vector3d> prolong(const CoarseMesh& coarse, const std::vector<Vector3d>& u, const Surface& fine,
+                              Interpolation interpolation) {
     const Surface& s = coarse.surface;
     const Rings rings(s);
     std::vector<Quadratic> local;
     local.reserve(s.x.size());
     std::vector<int> nodes;
-    for (int i = 0; i < s.n_nodes(); ++i) local.push_back(fit(s, rings, u, i, nodes));
+    const bool quadratic = interpolation == Interpolation::quadratic;
+    for (int i = 0; quadratic && i < s.n_nodes(); ++i) local.push_back(fit(s, rings, u, i, nodes));
 
     std::vector<Vector3d> out(fine.x.size(), Vector3d::Zero());
     for (std::size_t i = 0; i < out.size(); ++i) {
@@ -115,7 +117,8 @@ std::vector<Vector3d> prolong(const CoarseMesh& coarse, const std::vector<Vector
         if (w.minCoeff() == 0)                             // on the ring's border: perhaps outside of it
             for (int node : rings.next[home]) look(node);
         for (int k = 0; k < 3; ++k)
-            if (w[k] > 0) out[i] += w[k] * local[s.faces[face][k]].at(fine.x[i]);
+            if (const int node = s.faces[face][k]; w[k] > 0)
+                out[i] += w[k] * (quadratic ? local[node].at(fine.x[i]) : u[node]);
     }
     return out;
 }

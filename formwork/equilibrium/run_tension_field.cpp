@@ -12,6 +12,7 @@ constexpr double prestress_part = 0.01;        // Tp = 0.01 T* (tension_field.md
 constexpr double residual_part = 0.5;
 constexpr double wrinkles_known_at = 1e-3;     // residual at which the wrinkled region is settled enough to judge
 constexpr int most_rounds = 6;
+constexpr double nested_start = 0.01;          // T0 of T*: what is carried over from a coarse mesh is rough where it wrinkles
 
 }  // namespace
 
@@ -26,7 +27,7 @@ void Run::solve_tension_field(const Goal& goal) {
     const Regulariser first = regulariser(part * T);
     system_.membrane().law().set_regulariser(first);
     const double rough = std::max(wrinkles_known_at, goal.tolerance);
-    outcome_ = solve_with_level(rough, from_coarse_ ? 0 : T, "prestressed");
+    outcome_ = solve_with_level(rough, from_coarse_ ? nested_start * T : T, "prestressed");
     if (!outcome_.ok() && from_coarse_) {
         start_afresh();
         outcome_ = solve_with_level(rough, T, "prestressed");

@@ -56,6 +56,27 @@ TEST_CASE("a closed sphere swells to its exact radius (B3)") {
     }
 }
 
+TEST_CASE("blown upward or downward, a sheet has the same depth and capacity, and its prestress the same effect") {
+    EquilibriumProblem p;
+    p.rest = make_strip({.length = 0.3, .width = 0.3, .edge = 0.015});
+    for (const Vector3d& x : p.rest.x) {
+        const bool border = std::min({x[0], x[1], 0.3 - x[0], 0.3 - x[1]}) < 1e-9;
+        p.fixed.insert(p.fixed.end(), 3, border);
+    }
+    p.plaster.overpressure = 1500;
+    p.self_weight = false;
+    const EquilibriumResult one = find_equilibrium(p);
+    for (auto& t : p.rest.faces) std::swap(t[1], t[2]);
+    const EquilibriumResult other = find_equilibrium(p);
+    REQUIRE(one.x[nearest(p.rest, {0.15, 0.15, 0})][2] * other.x[nearest(p.rest, {0.15, 0.15, 0})][2] < -1e-3);
+    REQUIRE(one.wrinkled_faces > 0);
+    REQUIRE(one.depth_m > 0.05);
+    REQUIRE(one.depth_m == Approx(other.depth_m).epsilon(1e-6));
+    REQUIRE(one.capacity_m3 == Approx(other.capacity_m3).epsilon(1e-6));
+    REQUIRE(one.regularisation.depth_effect > 0);
+    REQUIRE(one.regularisation.volume_effect == Approx(other.regularisation.volume_effect).epsilon(1e-3));
+}
+
 TEST_CASE("two inextensible disks blow up to the balloon of Paulsen's volume, wrinkled all over") {
     // V = 1.2185 R³, radius 0.7628 R, half thickness 0.4569 R; the mirror half, its edge free in its own plane
     EquilibriumProblem p;
