@@ -18,9 +18,9 @@ namespace {
 
 constexpr int enough_faces = 6000;       // for a layout of few panels: more only cost time
 constexpr int faces_per_panel = 200;
-constexpr int repair_rounds = 2;
+constexpr int repair_rounds = 3;
 constexpr FlattenParams thorough{60, 1e-4};   // p95 is settled to a few thousandths of itself
-constexpr double margin = 0.95, polish_margin = 0.97;   // of the bound, in the search: what is done to the mesh later costs some
+constexpr double margin = 0.93, polish_margin = 0.96;   // of the bound, in the search: what is done to the mesh later costs some
 
 /// The mesh that the layout is searched on.
 struct Base {
@@ -51,7 +51,7 @@ Layout layout_on(const LayoutJob& job, CutMesh cut, int max_panels, Stage stage)
     SplitRules rules = job.rules;
     if (stage != Stage::search) rules.flattening = thorough;
     if (stage != Stage::verdict) rules.max_distortion *= stage == Stage::search ? margin : polish_margin;
-    return {job.s, job.field.theta, job.data, rules, {max_panels}, std::move(cut)};
+    return {job.s, job.field.theta, job.data, rules, {max_panels, job.params.on_step}, std::move(cut)};
 }
 
 CutMesh uncut(const LayoutJob& job, const MeshOnInput& mesh) { return {job.s, mesh.surface, mesh.source, mesh.source_face}; }

@@ -118,8 +118,18 @@ const PanelQuality& Layout::quality(int panel) {
         p.quality = look_at(patch, rules_, calibration_of({}));
         formwork::measure_flat(patch, rules_, p.quality);
         p.assessed = true;
+        tell();
     }
     return p.quality;
+}
+
+void Layout::tell() const {
+    if (!limits_.on_step) return;
+    double worst = 0;
+    for (const Panel& p : panels_)
+        if (p.alive && p.assessed && !p.frozen && std::isfinite(p.quality.p95)) worst = std::max(worst, p.quality.p95);
+    const int n = n_panels();
+    limits_.on_step(std::to_string(n) + (n == 1 ? " panel" : " panels") + ", worst " + std::to_string(std::lround(100 * worst)) + " %");
 }
 
 std::vector<std::string> Layout::violations() {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "formwork/segment/cut_mesh.hpp"
@@ -12,6 +14,7 @@ namespace formwork {
 /// What a finished layout must meet, besides the rules of a single cut.
 struct LayoutLimits {
     int max_panels = 24;
+    std::function<void(std::string_view)> on_step;   // told, a few times a second, what stands; may throw to end the search
 };
 
 /// Panels of a surface that is being cut. Few panels, not a quad layout: curves are added where they lower the
@@ -64,6 +67,7 @@ private:
     std::vector<int> faces_of(int panel) const;
     SurfaceField field_on(const PanelPatch& patch) const;
     const PanelQuality& quality(int panel);
+    void tell() const;
     double excess(const PanelQuality& q) const { return excess_of(q, rules_); }
 
     struct Trial {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "arcsim/base/archive.hpp"
@@ -29,6 +31,7 @@ struct SegmentParams {
     Symmetry symmetry = Symmetry::detect;
     ConstraintParams constraints;  // strokes are seams too, and never removed
     int threads = 0;
+    std::function<void(std::string_view)> on_step;   // no key: told what stands during the search; may throw Interrupted
 };
 
 template <class Archive>

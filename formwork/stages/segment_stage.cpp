@@ -108,7 +108,9 @@ JsonValue run_segment(const StageContext& context) {
     context.progress.update({});
     const auto start = std::chrono::steady_clock::now();
     const SegmentKeys& keys = context.scene.formwork.segment;
-    const SegmentParams& params = keys.layout;
+    SegmentParams params = keys.layout;
+    int step = 0;
+    params.on_step = [&](std::string_view text) { context.progress.update({++step, -1, -1, {}, std::string(text)}); };
     Segmentation s = segment(in.surface, in.data, params);
     if (keys.max_covariance_energy > 0) split_by_covariance(s, keys.max_covariance_energy, params.max_panels, keys.split);
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
