@@ -127,7 +127,7 @@ def draw(rows, time_steps, folder):
     bars(axes[1][2], "pressure Jacobian, sock, 1000 vertices", of("Jacobian", case="sock"))
     bars(axes[2][0], "linear solver, filled disk, largest mesh", largest(of("linear solver", case="filled disk")))
     bars(axes[2][1], "sampling and compression, 4000 vertices", largest(of("sampling")) + largest(of("compression")))
-    bars(axes[2][2], "threads, filled disk: wall time", of("threads"), "threads", key="wall_s")
+    bars(axes[2][2], "threads, filled disk: CPU time of all", of("threads"), "threads")
     figure.tight_layout()
     save(figure, folder / "settings")
 
@@ -137,7 +137,8 @@ def largest(rows):
     return [r for r in rows if int(r["mesh"]) >= 0.8 * most or int(r["vertices"]) == most]
 
 
-def bars(axis, title, rows, labels_by="settings", key="cpu_s"):
+def bars(axis, title, rows, labels_by="settings"):
+    key = "cpu_s"
     axis.set_title(title, fontsize=10)
     several = len({r["case"] for r in rows}) > 1
     labels = [(f"{r['case'].split(',')[0]}: " if several else r["method"].replace("_", " ") + ", ") + r["settings"].partition(" ")[2]
