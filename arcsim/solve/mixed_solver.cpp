@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 
 #include "arcsim/base/error.hpp"
@@ -63,7 +64,8 @@ public:
 
 private:
     /// @returns false when they meet negative curvature or need too many iterations. The last residual is not solved for
-    /// once more: how far it has fallen beside the one before, in the diagonal's norm, tells the energy's well enough.
+    /// once more: how far it has fallen beside the one before, in the diagonal's norm, tells the energy's, once it is known
+    /// how much slower the energy has fallen so far (the worse the condition, the slower).
     bool conjugate_gradients(const VectorXd& b, VectorXd& x) const {
         constexpr double margin = 0.5;   // of that estimate
         const auto diagonal_norm2 = [&] { return r_.cwiseAbs2().dot(inverse_diagonal_); };
@@ -75,6 +77,7 @@ private:
         if (size == 0) return true;
         const double of_solution = b.dot(x) + b.dot(z_);   // xᵀ A x, nearly
         const double target = tolerance * tolerance * (of_solution > 0 ? of_solution : energy);
+        double lag = 1;
         if (energy <= target) return true;
         for (int i = 0; i < most_iterations; ++i) {
             A_->multiply_symmetric(p_, Ap_);
@@ -85,10 +88,12 @@ private:
             r_ -= alpha * Ap_;
             const double size_before = size;
             size = diagonal_norm2();
-            if (energy * size / size_before <= margin * margin * target) return true;
+            const double fallen = size / size_before;
+            if (lag * energy * fallen <= margin * margin * target) return true;
             single_->solve(r_, z_);
             const double next = r_.dot(z_);
             if (next <= target) return true;
+            lag = std::max(lag, next / (energy * fallen));
             p_ = z_ + (next / energy) * p_;
             energy = next;
         }
