@@ -143,29 +143,36 @@ std::vector<std::vector<MirrorPlane>> plane_sets(const LayoutJob& job) {
     return sets;
 }
 
+/// The cut mesh mended as it is handed over, by the bounds themselves.
+Layout judged(const LayoutJob& job, const CutMesh& cut) {
+    std::vector<int> singular = singular_nodes(job, cut.surface());
+    return layout_on(job, mended(job, cut, singular), job.params.max_panels, Stage::verdict);
+}
+
 /// The cheapest of a free layout and those that keep mirror planes. A symmetric bag is worth some panels.
 CutMesh best_layout(const LayoutJob& job, const Base& base) {
-    constexpr double worth_of_symmetry = 2;   // times the free layout's cost
-    const auto judged = [&](const Layout& layout) { return layout_on(job, layout.cut(), job.params.max_panels, Stage::verdict); };
+    constexpr double worth_of_symmetry = 2;      // times the free layout's cost
+    constexpr double worth_of_two_planes = 1.4;  // times that of one plane: each pattern is cut four times instead of twice
     std::optional<Layout> best;
     double least = std::numeric_limits<double>::infinity();
     for (const auto& planes : plane_sets(job)) {
         const auto found = mirrored_layout(job, base, planes);
         if (!found) continue;
-        Layout layout = judged(*found);
-        if (layout.n_panels() < 2 || layout.cost() >= least) continue;
+        Layout layout = judged(job, found->cut());
+        const double worth = planes.size() > 1 && layout.keeps_bounds() ? worth_of_two_planes : 1;
+        if (layout.n_panels() < 2 || layout.cost() >= worth * least) continue;
         least = layout.cost();
         best.emplace(std::move(layout));
     }
     if (best && best->keeps_bounds()) return best->cut();
-    Layout free = judged(free_layout(job, base));
+    Layout free = judged(job, free_layout(job, base).cut());
     return best && least < worth_of_symmetry * free.cost() ? best->cut() : free.cut();
 }
 
-/// Everything that the next stages ask for.
+/// Everything that the next stages ask for of a mended cut mesh.
 Segmentation hand_over(const LayoutJob& job, const CutMesh& cut) {
-    std::vector<int> singular = singular_nodes(job, cut.surface());
-    Layout layout = layout_on(job, mended(job, cut, singular), job.params.max_panels, Stage::verdict);
+    const std::vector<int> singular = singular_nodes(job, cut.surface());
+    Layout layout = layout_on(job, cut, job.params.max_panels, Stage::verdict);
     Segmentation r;
     r.field = job.field;
     r.singularities = job.singularities;
@@ -190,7 +197,7 @@ Segmentation lay_out(const LayoutJob& job) {
     if (!base.is_coarse) return hand_over(job, found);
     int n = 0;
     const std::vector<int> panel = label_panels(found, n);
-    if (auto cut = transfer_seams(found, panel, n, job.s, job.topology)) return hand_over(job, *cut);
+    if (auto cut = transfer_seams(found, panel, n, job.s, job.topology)) return hand_over(job, judged(job, *cut).cut());
     return hand_over(job, best_layout(job, whole_mesh(job)));   // panels too narrow for the coarse mesh
 }
 
