@@ -30,6 +30,15 @@ const look = page => page.evaluate(() => {
   return {drawn: drawn / 40000, colours: colours.size, sum: d.reduce((a, b) => (a * 31 + b) % 1e9, 7)};
 });
 
+/// Marks behind the bag are hidden: a bag whose singularities lie at its foot is looked at from below.
+async function turnUntilSeen(page, label) {
+  await page.focus('#canvas-box canvas');
+  for (let turn = 0; turn < 24 && !await page.$$eval(label, m => m.length === 0 || m.some(x => !x.hidden)); ++turn) {
+    await page.keyboard.press('ArrowDown');
+    await page.waitForTimeout(250);   // they are asked of the triangles once the view rests
+  }
+}
+
 async function open(options) {
   const page = await context.newPage();
   const trouble = [];
@@ -59,7 +68,9 @@ try {
   }
   for (const box of await page.$$('#toggles input')) {
     await page.waitForTimeout(200);
-    const before = await look(page), label = '.' + (await box.getAttribute('id')).slice(5);
+    const label = '.' + (await box.getAttribute('id')).slice(5);
+    if (/mark/.test(label) && await box.isChecked()) await turnUntilSeen(page, label);
+    const before = await look(page);
     before.hidden = /mark|tag/.test(label) && await page.$$eval(label, m => !m.every(x => x.hidden));
     await box.click();
     await page.waitForTimeout(400);
@@ -69,6 +80,8 @@ try {
     expect(changed, `${name} changes the view`);
     await box.click();
   }
+  await page.focus('#canvas-box canvas');
+  await page.keyboard.press('r');
   if (await page.$('#show-cross')) {
     await page.check('#show-cross');
     await page.waitForTimeout(200);
