@@ -26,6 +26,7 @@ public:
     OutputFolder(const OutputFolder&) = delete;
     OutputFolder& operator=(const OutputFolder&) = delete;
     std::filesystem::path operator/(const std::string& file) const { return path_ / file; }
+    const std::filesystem::path& path() const { return path_; }
 
 private:
     std::filesystem::path path_;

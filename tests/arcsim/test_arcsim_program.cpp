@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "arcsim/mesh/obj_io.hpp"
+#include "tests/output_folder.hpp"
 #include "tests/paths.hpp"
 
 namespace fs = std::filesystem;
@@ -35,13 +36,6 @@ Result run(const std::string& arguments, const fs::path& folder) {
     return {WEXITSTATUS(status), text_of(log)};
 }
 
-fs::path fresh_folder(const std::string& name) {
-    const fs::path folder = fs::temp_directory_path() / ("formwork_arcsim_" + name);
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-    return folder;
-}
-
 /// A stored scene with some of its text replaced, beside its meshes.
 fs::path changed_scene(const std::string& name, const fs::path& folder,
                        const std::vector<std::pair<std::string, std::string>>& changes) {
@@ -56,7 +50,8 @@ fs::path changed_scene(const std::string& name, const fs::path& folder,
 }  // namespace
 
 TEST_CASE("the program writes frames, the scene and timing as ArcSim does") {
-    const fs::path dir = fresh_folder("files");
+    const OutputFolder scratch("arcsim_files");
+    const fs::path& dir = scratch.path();
     const fs::path scene = changed_scene("strip_iso", dir, {{"\"frame_time\": 0.4", "\"frame_time\": 0.02"},
                                                             {"\"frame_steps\": 40", "\"frame_steps\": 2"},
                                                             {"\"end_frame\": 5", "\"end_frame\": 3"}});
@@ -75,7 +70,8 @@ TEST_CASE("the program writes frames, the scene and timing as ArcSim does") {
 
 TEST_CASE("a resumed run continues to the same digits") {
     for (const std::string method : {"backward_euler", "bdf2"}) {
-        const fs::path dir = fresh_folder("resume_" + method);
+        const OutputFolder scratch("arcsim_resume_" + method);
+        const fs::path& dir = scratch.path();
         // Wind and unequal bending, so that what lags matters; a handle that takes hold after the interruption,
         // and one before.
         const fs::path scene = changed_scene(
@@ -95,7 +91,8 @@ TEST_CASE("a resumed run continues to the same digits") {
 }
 
 TEST_CASE("an interrupted run ends with exit code 130 and continues to the same bytes") {
-    const fs::path dir = fresh_folder("interrupted");
+    const OutputFolder scratch("arcsim_interrupted");
+    const fs::path& dir = scratch.path();
     const auto scene = [&](int end_frame) {
         return changed_scene("comp_iso", dir, {{"\"frame_time\": 0.4", "\"frame_time\": 0.02"},
                                                {"\"frame_steps\": 40", "\"frame_steps\": 2"},
@@ -119,7 +116,8 @@ TEST_CASE("an interrupted run ends with exit code 130 and continues to the same 
 
 TEST_CASE("several cloths run side by side, each as if it were alone") {
     using nlohmann::json;
-    const fs::path dir = fresh_folder("several");
+    const OutputFolder scratch("arcsim_several");
+    const fs::path& dir = scratch.path();
     const fs::path file = changed_scene("strip_iso", dir, {});
     json alone = json::parse(text_of(file));
     alone["frame_time"] = 0.05;
@@ -150,7 +148,8 @@ TEST_CASE("several cloths run side by side, each as if it were alone") {
 
 TEST_CASE("a hanging sheet stays inside its strain limits, resumes to the same bytes, and ignores limits that are disabled") {
     using nlohmann::json;
-    const fs::path dir = fresh_folder("limits");
+    const OutputFolder scratch("arcsim_limits");
+    const fs::path& dir = scratch.path();
     const json hang = json::parse(text_of(changed_scene("hang_iso", dir, {})));
     const auto largest_stretch = [](const ClothMesh& m) {
         double largest = 0;
@@ -193,7 +192,8 @@ TEST_CASE("a hanging sheet stays inside its strain limits, resumes to the same b
 
 TEST_CASE("recorded motions, velocities in the mesh, polygons and disabled physics do what the format says") {
     using nlohmann::json;
-    const fs::path dir = fresh_folder("format");
+    const OutputFolder scratch("arcsim_format");
+    const fs::path& dir = scratch.path();
     json scene = json::parse(text_of(changed_scene("strip_iso", dir, {})));
     scene["frame_time"] = 0.05;
     scene["frame_steps"] = 5;
@@ -224,7 +224,8 @@ TEST_CASE("recorded motions, velocities in the mesh, polygons and disabled physi
 
 TEST_CASE("a morph draws the cloth to its target") {
     using nlohmann::json;
-    const fs::path dir = fresh_folder("morph");
+    const OutputFolder scratch("arcsim_morph");
+    const fs::path& dir = scratch.path();
     json scene = json::parse(text_of(changed_scene("hang_iso", dir, {})));
     ClothMesh target = read_obj(dir / "meshes" / "sheet21.obj");
     for (Vector3d& x : target.x) x = Vector3d(x.x(), x.y(), 0.1 * std::sin(3 * x.x()));
@@ -245,7 +246,8 @@ TEST_CASE("a morph draws the cloth to its target") {
 }
 
 TEST_CASE("strain limits that hard handles exceed stop the run with exit code 3") {
-    const fs::path dir = fresh_folder("limits_exceeded");
+    const OutputFolder scratch("arcsim_limits_exceeded");
+    const fs::path& dir = scratch.path();
     const fs::path scene = changed_scene("strip_iso", dir, {{"\"strainlimiting\",", ""}, {"iso.json\"", "iso.json\", \"strain_limits\": [0.9, 1.05]"},
                                                             {"\"nodes\"", "\"hard\": true, \"nodes\""}});
     const Result r = run(scene.string() + " " + (dir / "out").string() + " --quiet", dir);
@@ -258,7 +260,8 @@ TEST_CASE("strain limits that hard handles exceed stop the run with exit code 3"
 }
 
 TEST_CASE("frames of another program, without our resume files, are continued with a warning") {
-    const fs::path dir = fresh_folder("foreign");
+    const OutputFolder scratch("arcsim_foreign");
+    const fs::path& dir = scratch.path();
     const fs::path scene = changed_scene("strip_iso", dir, {{"\"frame_time\": 0.4", "\"frame_time\": 0.05"},
                                                             {"\"frame_steps\": 40", "\"frame_steps\": 5"},
                                                             {"\"end_frame\": 5", "\"end_frame\": 2"}});
@@ -271,7 +274,8 @@ TEST_CASE("frames of another program, without our resume files, are continued wi
 }
 
 TEST_CASE("wrong input ends with exit code 2, names the place, and writes nothing") {
-    const fs::path dir = fresh_folder("wrong");
+    const OutputFolder scratch("arcsim_wrong");
+    const fs::path& dir = scratch.path();
     const auto expect = [&](const std::string& from, const std::string& to, const std::string& words) {
         const fs::path scene = changed_scene("strip_iso", dir, {{from, to}});
         const Result r = run(scene.string() + " " + (dir / "none").string() + " --quiet", dir);
@@ -299,7 +303,8 @@ TEST_CASE("wrong input ends with exit code 2, names the place, and writes nothin
 }
 
 TEST_CASE("clockwise faces are refused, an indefinite material stops the run with exit code 3") {
-    const fs::path dir = fresh_folder("failures");
+    const OutputFolder scratch("arcsim_failures");
+    const fs::path& dir = scratch.path();
     const Result flip = run(changed_scene("fail_flip", dir, {}).string() + " " + (dir / "flip").string() + " --quiet", dir);
     CHECK(flip.code == 2);
     CHECK_THAT(flip.errors, Contains("runs clockwise in material space"));
@@ -309,7 +314,8 @@ TEST_CASE("clockwise faces are refused, an indefinite material stops the run wit
 }
 
 TEST_CASE("what is not modelled is left out when asked, and harmless keys are named once") {
-    const fs::path dir = fresh_folder("ignored");
+    const OutputFolder scratch("arcsim_ignored");
+    const fs::path& dir = scratch.path();
     const fs::path scene = changed_scene("strip_iso", dir, {{"\"end_frame\": 5", "\"end_frame\": 1, \"friction\": 0.3"},
                                                             {"\"remeshing\",", "\"remshing\","}});
     const Result refused = run(scene.string() + " " + (dir / "out").string() + " --quiet", dir);

@@ -4,6 +4,7 @@
 
 #include "arcsim/base/error.hpp"
 #include "arcsim/material/material_data.hpp"
+#include "tests/output_folder.hpp"
 
 using namespace arcsim;
 using Catch::Contains;
@@ -11,7 +12,8 @@ using Catch::Contains;
 namespace {
 
 std::string error_of(const std::string& text) {
-    const auto file = std::filesystem::temp_directory_path() / "formwork_test_material.json";
+    const OutputFolder scratch("bad_material");
+    const auto file = scratch / "material.json";
     std::ofstream(file) << text;
     try {
         read_material(file);
@@ -27,7 +29,8 @@ const std::string bending = "\"bending\": [[1,2,3,4,5],[1,2,3,4,5],[1,2,3,4,6e-6
 }  // namespace
 
 TEST_CASE("a material file with comments and extra rows is read") {
-    const auto file = std::filesystem::temp_directory_path() / "formwork_test_material_good.json";
+    const OutputFolder scratch("material");
+    const auto file = scratch / "material.json";
     std::ofstream(file) << "{ // measured\n\"density\": 0.2, \"stretching\": [" << rows << "], /* */ " << bending << "}";
     const MaterialData m = read_material(file);
     CHECK(m.density == 0.2);

@@ -7,6 +7,7 @@
 #include "arcsim/scene/handles.hpp"
 #include "arcsim/scene/morph.hpp"
 #include "arcsim/scene/motion.hpp"
+#include "tests/output_folder.hpp"
 
 using namespace arcsim;
 using Catch::Contains;
@@ -60,7 +61,8 @@ TEST_CASE("half way between two rotations is the normalised mean of the quaterni
 }
 
 TEST_CASE("a file of recorded motions gives one motion per body, moved by the transform") {
-    const auto file = std::filesystem::temp_directory_path() / "formwork_test.mot";
+    const OutputFolder scratch("mot");
+    const auto file = scratch / "bodies.mot";
     std::ofstream(file) << "2\n2\n0 0 0  1 0 0 0\n1 0 0  -1 0 0 0\n1\n5 5 5  1 0 0 0\n";
     const auto m = motions_from("{\"motfile\": \"" + file.string() + "\", \"fps\": 2, \"transform\": {\"scale\": 2}}");
     REQUIRE(m.size() == 2);

@@ -5,6 +5,7 @@
 #include "formwork/load/cast_solid.hpp"
 #include "formwork/load/pressure_force.hpp"
 #include "shapes.hpp"
+#include "tests/output_folder.hpp"
 
 using namespace formwork;
 
@@ -39,8 +40,8 @@ TEST_CASE("a level that splits the bag into two pools, or rings a cone, closes b
     PressureForce load(bag.surface.faces, {0, 0, 1}, 1, 0, PressureQuadrature::consistent, PressureJacobian::none);
     REQUIRE(enclosed_volume(cast) == Approx(load.totals(shapes::flatten(bag.surface.x), -0.015).volume).epsilon(1e-9));
 
-    const auto file = std::filesystem::temp_directory_path() / "formwork_cast_test.stl";
+    const OutputFolder scratch("cast");
+    const auto file = scratch / "cast.stl";
     write_stl(file, cast, "cast");
     REQUIRE(arcsim::read_text_file(file).size() == 84 + 50 * cast.faces.size());
-    std::filesystem::remove(file);
 }

@@ -9,6 +9,7 @@
 #include "formwork/segment/layout_json.hpp"
 #include "formwork/segment/panel_patch.hpp"
 #include "tests/formwork/layout_meshes.hpp"
+#include "tests/output_folder.hpp"
 
 using namespace formwork;
 using namespace layout_meshes;
@@ -174,12 +175,12 @@ TEST_CASE("bad input to the segmentation is named") {
 
 TEST_CASE("strokes become seams and stay") {
     const Surface s = tube(48, 24, 0.1, 0.3);
-    const auto file = std::filesystem::temp_directory_path() / "formwork_test_stroke.obj";
+    const OutputFolder scratch("stroke");
+    const auto file = scratch / "stroke.obj";
     std::ofstream(file) << "v 0.1 0 0\nv 0.1 0 0.15\nv 0.1 0 0.3\nl 1 2 3\n";
     SegmentParams p;
     p.constraints.strokes.path = file;
     const Segmentation r = segment(s, along(s, {0, 0, 1}, 1), p);
-    std::filesystem::remove(file);
     check_promises(s, r);
     double along_stroke = 0;
     for (const Seam& seam : r.seams)

@@ -9,6 +9,7 @@
 #include "formwork/panels/sewing_order.hpp"
 #include "formwork/panels/sewn_rest.hpp"
 #include "tests/formwork/cut_surfaces.hpp"
+#include "tests/output_folder.hpp"
 
 using namespace formwork;
 
@@ -27,12 +28,6 @@ Segmentation tee() {
         label.push_back(c.y() > 0.5 ? 2 : c.x() > 0.5 ? 1 : 0);
     }
     return cut_surfaces::cut_by_labels(s, label);
-}
-
-std::filesystem::path fresh_folder(const char* name) {
-    const auto folder = std::filesystem::temp_directory_path() / "formwork_tests" / name;
-    std::filesystem::remove_all(folder);
-    return folder;
 }
 
 }  // namespace
@@ -105,7 +100,8 @@ TEST_CASE("the sewn rest shape shares its nodes, keeps flat areas and names its 
 
 TEST_CASE("bad input leaves the pattern folder as it was") {
     const Segmentation s = open_tube();
-    const auto folder = fresh_folder("patterns");
+    const OutputFolder scratch("patterns");
+    const auto folder = scratch / "out";
     PanelParams params;
     PanelSet set = make_panels(s, params);
     write_patterns(set, s, make_pattern(set, s, {}), folder);
@@ -129,7 +125,8 @@ TEST_CASE("bad input leaves the pattern folder as it was") {
 
 TEST_CASE("pieces and papers of an earlier run are not left to be cut by mistake") {
     const Segmentation s = open_tube();
-    const auto folder = fresh_folder("stale_patterns");
+    const OutputFolder scratch("stale_patterns");
+    const auto folder = scratch / "out";
     std::filesystem::create_directories(folder / "pieces");
     for (const char* name : {"pieces/P07.svg", "pieces/Patch.svg", "panels-a3.pdf"}) std::ofstream(folder / name) << "old";
     const PanelSet set = make_panels(s, {});
