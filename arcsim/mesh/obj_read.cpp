@@ -97,11 +97,6 @@ private:
     std::string_view rest_;
 };
 
-double smallest_angle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-    const auto angle = [](const Vector3d& p, const Vector3d& q) { return std::atan2(p.cross(q).norm(), p.dot(q)); };
-    return std::min({angle(b - a, c - a), angle(c - b, a - b), angle(a - c, b - c)});
-}
-
 class Reader {
 public:
     explicit Reader(const std::string& name) : name_(name) {}
@@ -238,9 +233,8 @@ private:
         for (size_t start = 0; start < n; ++start) {
             double angle = 4;
             for (size_t i = 1; i + 1 < n; ++i)
-                angle = std::min(angle, smallest_angle(mesh_.x[corners[start].node],
-                                                       mesh_.x[corners[(start + i) % n].node],
-                                                       mesh_.x[corners[(start + i + 1) % n].node]));
+                angle = std::min(angle, min_angle(mesh_.x[corners[start].node], mesh_.x[corners[(start + i) % n].node],
+                                                  mesh_.x[corners[(start + i + 1) % n].node]));
             if (angle > best_angle) best = start, best_angle = angle;
         }
         return best;

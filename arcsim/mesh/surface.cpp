@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace arcsim {
 
@@ -30,15 +29,9 @@ double bounding_diagonal(const Surface& s) {
     return (hi - lo).norm();
 }
 
-double min_angle(const Surface& s, int f) {
-    const Triangle& t = s.faces[f];
-    double smallest = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < 3; ++k) {
-        const Vector3d a = s.x[t[(k + 1) % 3]] - s.x[t[k]];
-        const Vector3d b = s.x[t[(k + 2) % 3]] - s.x[t[k]];
-        smallest = std::min(smallest, std::atan2(a.cross(b).norm(), a.dot(b)));
-    }
-    return smallest;
+double min_angle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+    const auto angle = [](const Vector3d& p, const Vector3d& q) { return std::atan2(p.cross(q).norm(), p.dot(q)); };
+    return std::min({angle(b - a, c - a), angle(c - b, a - b), angle(a - c, b - c)});
 }
 
 FaceFrame face_frame(const Surface& s, int f) {

@@ -62,17 +62,8 @@ private:
         return *std::max_element(b.begin(), b.end()) > 1 - 1e-12;
     }
 
-    double least_angle(const arcsim::Triangle& t) const {
-        double least = std::numbers::pi;
-        for (int k = 0; k < 3; ++k) {
-            const Vector3d a = s_.x[t[(k + 1) % 3]] - s_.x[t[k]], b = s_.x[t[(k + 2) % 3]] - s_.x[t[k]];
-            least = std::min(least, std::atan2(a.cross(b).norm(), a.dot(b)));
-        }
-        return least;
-    }
-    Vector3d normal(const arcsim::Triangle& t) const {
-        return (s_.x[t[1]] - s_.x[t[0]]).cross(s_.x[t[2]] - s_.x[t[0]]).normalized();
-    }
+    double least_angle(const arcsim::Triangle& t) const { return arcsim::min_angle(s_, t); }
+    Vector3d normal(const arcsim::Triangle& t) const { return arcsim::face_normal(s_, t); }
     double least_around(int v) const {
         double least = std::numbers::pi;
         for (int f : around_[v]) least = std::min(least, least_angle(s_.faces[f]));

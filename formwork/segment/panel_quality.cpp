@@ -12,39 +12,14 @@ constexpr double hopeless = 2.5;   // times the allowed stretch: such an estimat
 constexpr double usual_calibration = 0.75;   // measured stretch over estimate, typical of panels of mixed shape
 constexpr int estimate_cells = 400;
 
-bool cross(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
-    const auto side = [](const Vector2d& p, const Vector2d& q, const Vector2d& x) {
-        return (q - p).x() * (x - p).y() - (q - p).y() * (x - p).x() > 0;
-    };
-    return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
-}
-
-/// Whether two edges of a flat outline cross; edges that follow each other do not count.
-bool crosses_itself(const std::vector<int>& loop, const std::vector<Vector2d>& u) {
-    const std::size_t n = loop.size();
-    for (std::size_t i = 0; i < n; ++i) {
-        const Vector2d &a = u[loop[i]], &b = u[loop[(i + 1) % n]];
-        const Vector2d low = a.cwiseMin(b), high = a.cwiseMax(b);
-        for (std::size_t j = i + 2; j < n - (i == 0); ++j) {
-            const Vector2d &c = u[loop[j]], &d = u[loop[(j + 1) % n]];
-            if ((c.cwiseMax(d).array() < low.array()).any() || (c.cwiseMin(d).array() > high.array()).any()) continue;
-            if (cross(a, b, c, d)) return true;
-        }
-    }
-    return false;
-}
-
 /// Area of a flat outline over that of its convex hull (Andrew's monotone chain).
-double solidity_of(const std::vector<int>& loop, const std::vector<Vector2d>& u) {
+double solidity_of(const std::vector<Vector2d>& outline) {
     const auto turn = [](const Vector2d& a, const Vector2d& b, const Vector2d& c) {
         return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
     };
-    std::vector<Vector2d> points;
+    std::vector<Vector2d> points = outline;
     double area = 0;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        points.push_back(u[loop[i]]);
-        area += turn(Vector2d::Zero(), u[loop[i]], u[loop[(i + 1) % loop.size()]]);
-    }
+    for (std::size_t i = 0; i < outline.size(); ++i) area += turn(Vector2d::Zero(), outline[i], outline[(i + 1) % outline.size()]);
     std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
         return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
     });
@@ -83,8 +58,10 @@ void measure_flat(const PanelPatch& patch, const SplitRules& rules, PanelQuality
     try {
         const FlattenResult flat = flatten_disk(patch.surface, rules.flattening);
         q.p95 = flat.stretch.p95;
-        q.solidity = solidity_of(patch.topology.boundary_loops.front(), flat.u);
-        q.overlaps = crosses_itself(patch.topology.boundary_loops.front(), flat.u);
+        std::vector<Vector2d> outline;
+        for (int v : patch.topology.boundary_loops.front()) outline.push_back(flat.u[v]);
+        q.solidity = solidity_of(outline);
+        q.overlaps = !outline_crossings(outline, 1).empty();
     } catch (const arcsim::NumericalError&) {   // cannot be laid flat without folds: as bad as it gets
         q.p95 = std::max(q.estimate, hopeless * rules.max_distortion);
     }

@@ -49,15 +49,8 @@ private:
     };
 
     bool is_feature(int a, int b) const { return std::count(feature_[a].begin(), feature_[a].end(), b) > 0; }
-    Vector3d normal(const arcsim::Triangle& t) const { return (s_.x[t[1]] - s_.x[t[0]]).cross(s_.x[t[2]] - s_.x[t[0]]).normalized(); }
-    double least_angle(const arcsim::Triangle& t) const {
-        double smallest = std::numbers::pi;
-        for (int k = 0; k < 3; ++k) {
-            const Vector3d a = s_.x[t[(k + 1) % 3]] - s_.x[t[k]], b = s_.x[t[(k + 2) % 3]] - s_.x[t[k]];
-            smallest = std::min(smallest, std::atan2(a.cross(b).norm(), a.dot(b)));
-        }
-        return smallest;
-    }
+    double least_angle(const arcsim::Triangle& t) const { return arcsim::min_angle(s_, t); }
+    Vector3d normal(const arcsim::Triangle& t) const { return arcsim::face_normal(s_, t); }
 
     void offer(int a, int b) { queue_.push({(s_.x[a] - s_.x[b]).norm(), std::min(a, b), std::max(a, b), stamp_[std::min(a, b)], stamp_[std::max(a, b)]}); }
 
