@@ -10,6 +10,14 @@ namespace {
 
 const JsonValue empty_object = JsonValue::object();
 
+// The member of `object` that looks like `key` and is not one of the keys read so far; empty when there is none.
+std::string misspelt(const JsonValue& object, const std::string& key, const std::vector<std::string>& known) {
+    std::vector<std::string> others;
+    for (const auto& [name, value] : object.members)
+        if (std::find(known.begin(), known.end(), name) == known.end()) others.push_back(name);
+    return nearest_word(key, others);
+}
+
 }  // namespace
 
 ParamsReader::ParamsReader(const JsonNode& node, Warnings& warnings, Unsupported unsupported)
@@ -44,9 +52,11 @@ std::optional<JsonNode> ParamsReader::get(const Field& f) {
     level.known.emplace_back(f.key);
     const JsonValue* v = level.node.value().find(f.key);
     if (v) return JsonNode(level.node.document(), *v, level.node.pointer() + "/" + f.key);
-    if (f.is_required)
-        level.node.fail(std::string("the key \"") + f.key + "\" is missing" + (*f.unit ? std::string(" (") + f.unit + ")" : "") +
-                        "." + (*f.doc ? std::string(" ") + f.doc : ""));
+    if (f.is_required) {
+        const std::string guess = misspelt(level.node.value(), f.key, level.known);
+        level.node.fail(std::string("the key \"") + f.key + "\" is missing" + (*f.unit ? std::string(" (") + f.unit + ")" : "") + "." +
+                        (guess.empty() ? "" : " Is \"" + guess + "\" meant to be it?") + (*f.doc ? std::string(" ") + f.doc : ""));
+    }
     return {};
 }
 

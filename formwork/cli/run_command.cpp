@@ -41,15 +41,16 @@ void add_run_command(CLI::App& app, Session& session) {
 
 void add_stage_commands(CLI::App& app, Session& session) {
     struct Row {
-        const char *name, *what;
+        const char *name, *what, *trial;
     };
-    for (const Row& row : {Row{"inflate", "Fill the bag: equilibrium of isotropic fabric and liquid plaster"},
-                           Row{"segment", "Cut the bag into panels along its strain"}, Row{"panels", "Lay the panels flat and write cutting patterns"},
-                           Row{"sew", "Fill the sewn bag of woven panels"}, Row{"report", "Write report.html from the files on disk"}}) {
+    for (const Row& row : {Row{"inflate", "Fill the bag: equilibrium of isotropic fabric and liquid plaster", "plaster.density=1800   kg/m³"},
+                           Row{"segment", "Cut the bag into panels along its strain", "segment.max_distortion=0.08   stretch of flattening"},
+                           Row{"panels", "Lay the panels flat and write cutting patterns", "panels.seam_allowance_mm=12   mm"},
+                           Row{"sew", "Fill the sewn bag of woven panels", "plaster.fill='{\"volume\": 0.003}'   m³"},
+                           Row{"report", "Write report.html from the files on disk", nullptr}}) {
         const std::string name = row.name;
-        CLI::App* command = add_command(app, session, name, row.what,
-                                        "  formwork " + name + " conf/column.json -o out/column\n"
-                                        "  formwork " + name + " conf/column.json -o out/trial --set plaster.density=1800   kg/m³");
+        CLI::App* command = add_command(app, session, name, row.what, "  formwork " + name + " conf/column.json -o out/column\n  " +
+            (row.trial ? "formwork " + name + " conf/column.json -o out/column --set " + row.trial : "formwork run conf/column.json -o out/column   the stages before it too"));
         auto arguments = std::make_shared<SceneArguments>();
         add_scene_arguments(command, *arguments, true);
         command->callback([arguments, name, &session] { run(*arguments, {name, name, false}, session); });

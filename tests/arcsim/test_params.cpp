@@ -98,6 +98,8 @@ TEST_CASE("Errors of the reader name file, line, column, pointer, value, range a
           "bag.json:2:14: /density: expected a number > 0 (kg/m³), got -1. Density of the liquid plaster.");
     CHECK(error_of("{\"density\": 1,\n \"centr\": [0,0,0]}").find("bag.json:2:11: /centr: is not a known key. Did you mean \"centre\"? Known: centre, density") == 0);
     CHECK(error_of("{}") == "bag.json:1:1: /: the key \"density\" is missing (kg/m³). Density of the liquid plaster.");
+    CHECK(error_of("{\"densty\": 1}") ==
+          "bag.json:1:1: /: the key \"density\" is missing (kg/m³). Is \"densty\" meant to be it? Density of the liquid plaster.");
     CHECK(error_of(R"({"density": "1"})") ==
           "bag.json:1:13: /density: expected a number > 0 (kg/m³), got \"1\". Density of the liquid plaster.");
     CHECK(error_of(R"({"density": 1, "law": "secnat"})") ==
