@@ -129,7 +129,7 @@ Errors solve_bag(const json& c, int n_nodes) {
     return e;
 }
 
-Errors solve_trough(const json& c, int n_across) {
+EquilibriumProblem trough_problem(const json& c, int n_across) {
     const double W = c.at("W"), L = c.at("L0");
     const double edge = L / n_across;
     const shapes::Bag b = shapes::trough(L, 3 * edge, n_across, 3);
@@ -154,11 +154,16 @@ Errors solve_trough(const json& c, int n_across) {
     } else {
         p.material = material(c.at("mat"), c.at("law"));
     }
+    return p;
+}
+
+Errors solve_trough(const json& c, int n_across) {
+    const EquilibriumProblem p = trough_problem(c, n_across);
     Errors e;
     e.result = find_equilibrium(p);
     e.nodes = n_across;
     e.depth = e.result.depth_below_rim_m / double(c.at("bottom_below_supports")) - 1;
-    e.volume = e.result.volume_m3 / (3 * edge) / double(c.at("fluid_area")) - 1;
+    e.volume = e.result.volume_m3 / (3 * double(c.at("L0")) / n_across) / double(c.at("fluid_area")) - 1;
     double tension = 0;                                  // current tension; the width does not change
     for (const FaceStrain& s : e.result.strain) tension += s.tension1 * s.lambda1 / static_cast<double>(e.result.strain.size());
     e.reaction = tension / double(c.at("tension")) - 1;

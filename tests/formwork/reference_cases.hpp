@@ -17,6 +17,8 @@ formwork::MaterialParams material(const std::string& name, const std::string& la
 /// A bag of reference b6 or disk of b4 with about n_nodes nodes.
 shapes::Bag bag(const nlohmann::json& c, int n_nodes);
 formwork::EquilibriumProblem bag_problem(const nlohmann::json& c, int n_nodes);
+/// A trough of reference b5: n_across edges along its section, three edges long.
+formwork::EquilibriumProblem trough_problem(const nlohmann::json& c, int n_across);
 
 /// Relative errors of one solution against its reference.
 struct Errors {

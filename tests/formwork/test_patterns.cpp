@@ -4,20 +4,23 @@
 
 #include "formwork/panels/pattern_files.hpp"
 #include "tests/formwork/cut_surfaces.hpp"
+#include "tests/output_folder.hpp"
 
 using namespace formwork;
 
-/// Hidden: writes patterns for the readers of tests/scripts/test_patterns.py, and for eyes.
+/// Hidden: writes patterns for the readers of tests/scripts/test_patterns.py, and for eyes; without PATTERN_FOLDER into a
+/// folder that goes with the test.
 TEST_CASE("patterns are written where PATTERN_FOLDER says", "[.write-patterns]") {
-    const char* folder = std::getenv("PATTERN_FOLDER");
-    REQUIRE(folder);
+    const char* wanted = std::getenv("PATTERN_FOLDER");
+    const OutputFolder scratch("patterns");
+    const std::filesystem::path folder = wanted ? std::filesystem::path(wanted) : scratch.path();
     PatternInfo info;
     info.date = "2026-01-31";
     info.liquid_m3 = 0.0123, info.liquid_kg = 18.45, info.fabric_density = 0.2;
     const auto write = [&](const char* name, const Segmentation& s, PanelParams params) {
         const PanelSet set = make_panels(s, params);
         info.name = name;
-        const PatternFiles files = write_patterns(set, s, make_pattern(set, s, info), std::filesystem::path(folder) / name);
+        const PatternFiles files = write_patterns(set, s, make_pattern(set, s, info), folder / name);
         INFO(name);
         CHECK(files.names.size() == 10 + params.more_papers.size() + set.panels.size());
         CHECK(files.utilisation > 0.1);
