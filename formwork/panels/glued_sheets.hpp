@@ -9,6 +9,7 @@ struct GluedGrids {
     std::vector<PatternPiece> pieces;   // turned
     std::vector<Placement> placement;   // per piece, y from 0 downwards
     std::vector<PaperSheet> sheets;
+    std::vector<Box> left_out;          // windows of blank sheets
     int rows = 0;                       // of sheets, all grids together
     double low = 0;                     // y of the lowest sheet's lower edge
 };
@@ -17,9 +18,6 @@ struct GluedGrids {
 /// its own, turned and moved to the place where it touches the fewest; whichever takes less paper.
 /// @param room   printable part of a sheet, mm
 GluedGrids lay_on_grids(const std::vector<PatternPiece>& large, const PanelParams& params, const Vector2d& room);
-
-/// "A", "B" ... "Z", "AA": the name of a row of sheets.
-std::string row_letters(int row);
 
 /// As params, for pieces on paper of this width: close together and turned as it fits.
 PanelParams paper_nesting(const PanelParams& params, double width);

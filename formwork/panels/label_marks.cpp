@@ -24,13 +24,6 @@ double upright(double angle) {   // never upside down
 
 std::string millimetres(double metres) { return arcsim::format_short(std::round(mm * metres * 10) / 10, 6) + " mm"; }
 
-/// The box around a line of text, turned as the text is.
-Polygon text_box(const TextMark& t) {
-    const Vector2d along(std::cos(t.angle), std::sin(t.angle)), up(-along.y(), along.x());
-    const double half = text_width(t.text, t.height) / 2 + clearance, below = 0.25 * t.height + clearance, above = t.height + clearance;
-    return {t.at - half * along - below * up, t.at + half * along - below * up, t.at + half * along + above * up, t.at - half * along + above * up};
-}
-
 /// Lettering of one piece: nothing is written over anything else or across a line.
 class Sheet {
 public:
@@ -134,6 +127,12 @@ void write_title(const std::vector<std::pair<std::string, double>>& lines, Sheet
 }
 
 }  // namespace
+
+Line text_box(const TextMark& t) {
+    const Vector2d along(std::cos(t.angle), std::sin(t.angle)), up(-along.y(), along.x());
+    const double half = text_width(t.text, t.height) / 2 + clearance, below = 0.25 * t.height + clearance, above = t.height + clearance;
+    return {t.at - half * along - below * up, t.at + half * along - below * up, t.at + half * along + above * up, t.at - half * along + above * up};
+}
 
 void add_labels(const PanelSet& set, const PatternInfo& info, PatternPiece& piece) {
     std::vector<SeamLabel> labels = seam_labels(set, piece.panel);

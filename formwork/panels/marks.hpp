@@ -17,6 +17,9 @@ void add_notches(const PanelSet& set, PatternPiece& piece);
 /// Grain arrow, title block and the seams' names.
 void add_labels(const PanelSet& set, const PatternInfo& info, PatternPiece& piece);
 
+/// The box around a line of text, turned as the text is, with some clearance.
+Line text_box(const TextMark& text);
+
 /// The chain's point at a share of its length, and the unit tangent there.
 struct ChainPoint {
     Vector2d at, tangent;

@@ -43,6 +43,17 @@ Nest place_in_order(const std::vector<int>& order, const std::vector<std::vector
     return nest;
 }
 
+/// The masks of every piece that lie along the roll, or across it; all of them where a piece fits only the other way.
+std::vector<std::vector<NestMask>> turned_alike(const std::vector<std::vector<NestMask>>& masks, int parity) {
+    std::vector<std::vector<NestMask>> chosen(masks.size());
+    for (std::size_t i = 0; i < masks.size(); ++i) {
+        for (const NestMask& mask : masks[i])
+            if (mask.quarter_turns % 2 == parity) chosen[i].push_back(mask);
+        if (chosen[i].empty()) chosen[i] = masks[i];
+    }
+    return chosen;
+}
+
 void check_overlaps(const std::vector<PatternPiece>& pieces, const Nest& nest) {
     std::vector<Polygon> laid(pieces.size());
     for (std::size_t i = 0; i < pieces.size(); ++i)
@@ -80,11 +91,15 @@ Nest nest_pieces(const std::vector<PatternPiece>& pieces, const PanelParams& par
 
     std::vector<int> order(pieces.size());
     std::iota(order.begin(), order.end(), 0);
+    std::vector<std::vector<std::vector<NestMask>>> choices{masks};   // the orientation that ends first is not always the best one
+    for (int parity = 0; parity < 2 && params.quarter_turns; ++parity) choices.push_back(turned_alike(masks, parity));
     Nest best;
     const auto attempt = [&] {
-        const Nest nest = place_in_order(order, masks, grid);
-        const bool shorter = nest.length < best.length - 1e-9 || (nest.length < best.length + 1e-9 && nest.width < best.width);
-        if (best.placement.empty() || shorter) best = nest;
+        for (const std::vector<std::vector<NestMask>>& choice : choices) {
+            const Nest nest = place_in_order(order, choice, grid);
+            const bool shorter = nest.length < best.length - 1e-9 || (nest.length < best.length + 1e-9 && nest.width < best.width);
+            if (best.placement.empty() || shorter) best = nest;
+        }
     };
     const auto by = [&](auto measure) {
         std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return measure(pieces[a]) > measure(pieces[b]); });

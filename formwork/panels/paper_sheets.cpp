@@ -5,6 +5,7 @@
 
 #include "formwork/panels/glued_sheets.hpp"
 #include "formwork/panels/nest.hpp"
+#include "formwork/panels/sheet_grid.hpp"
 
 namespace formwork {
 namespace {
@@ -80,6 +81,7 @@ PaperLayout lay_on_sheets(const std::vector<PatternPiece>& as_cut, const PanelPa
             layout.placement[large[k]] = grids.placement[k];
         }
         layout.sheets = std::move(grids.sheets);
+        layout.left_out = std::move(grids.left_out);
         row = grids.rows;
         below = grids.low - between_sheets;
     }
@@ -106,6 +108,7 @@ PaperLayout lay_on_sheets(const std::vector<PatternPiece>& as_cut, const PanelPa
     Box all{layout.sheets.front().window};   // moved so that everything lies at and above zero
     for (const PaperSheet& sheet : layout.sheets) all = {all.low.cwiseMin(sheet.window.low), all.high.cwiseMax(sheet.window.high)};
     for (PaperSheet& sheet : layout.sheets) sheet.window = {sheet.window.low - all.low, sheet.window.high - all.low};
+    for (Box& window : layout.left_out) window = {window.low - all.low, window.high - all.low};
     for (Placement& place : layout.placement) place.offset -= all.low;
     layout.size = all.size();
     return layout;

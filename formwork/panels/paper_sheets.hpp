@@ -24,6 +24,7 @@ struct PaperLayout {
     std::vector<PatternPiece> pieces;   // turned where that saves joints
     std::vector<Placement> placement;   // per piece
     std::vector<PaperSheet> sheets;
+    std::vector<Box> left_out;          // windows of the sheets inside pieces that would be blank and are not printed
     Vector2d size{0, 0};        // of the whole layout, mm
 };
 

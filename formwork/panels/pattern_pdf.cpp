@@ -64,14 +64,16 @@ void draw_overview(PdfPage& page, const Pattern& pattern, const PaperLayout& lay
     double y = paper.y() - page_margin - 10;
     page.text({page_margin + 5, y}, 6, 0, pattern.info.name, false);
     const bool glued = std::any_of(layout.sheets.begin(), layout.sheets.end(), [](const PaperSheet& s) { return s.is_glued(); });
+    const std::string left_out = layout.left_out.empty() ? "" : "Dashed on the map: blank sheets inside a piece, which are not printed.";
     for (const std::string& text :
          {pattern.info.date + "   " + std::to_string(pattern.pieces.size()) + " pieces, cut " + std::to_string(pattern.params.cut_count) + " of each",
           std::string("Print at 100 %, no \"fit to page\". Measure the square below before you cut."),
           glued ? "Sheets overlap by " + arcsim::format_short(sheet_overlap) + " mm: lay cross on cross, diamond on diamond, as the map below shows."
                 : std::string("Every piece lies whole on its sheet: nothing has to be glued."),
+          left_out,
           std::string("Red: cut. Blue, dashed: sew and fold. Green: notches; join like to like."),
           std::string("Pieces are seen from outside. Lay the arrow along the warp of the cloth: pieces are turned here to save paper.")})
-        page.text({page_margin + 5, y -= 6}, 2.4, 0, text, false);
+        if (!text.empty()) page.text({page_margin + 5, y -= 6}, 2.4, 0, text, false);
     draw_scale_box(page, {page_margin + 5, page_margin + 5});
 
     // The map: every sheet with its name, and the pieces' outlines.
@@ -79,6 +81,10 @@ void draw_overview(PdfPage& page, const Pattern& pattern, const PaperLayout& lay
     const Vector2d room(paper.x() - 2 * page_margin - 10, y - 6 - origin.y());
     const double scale = std::min({room.x() / layout.size.x(), room.y() / layout.size.y(), 1.0});
     page.width(hairline), page.colour(grey);
+    page.dashed(true);
+    for (const Box& window : layout.left_out)
+        page.box(origin + scale * (window.low + Vector2d::Constant(sheet_overlap)), scale * (window.size() - Vector2d::Constant(3 * sheet_overlap)));
+    page.dashed(false);
     for (const PaperSheet& sheet : layout.sheets) {
         const Vector2d low = origin + scale * sheet.window.low;
         const Vector2d size = scale * (sheet.window.size() - Vector2d::Constant(sheet.is_glued() ? sheet_overlap : 0.0));
