@@ -11,6 +11,7 @@ namespace {
 
 constexpr double default_max_stretch = 3;   // no cloth reaches it: beyond it a step has failed
 constexpr int halvings_before_lu = 6;
+constexpr int easy_iterations = 6;      // after a part that took more, the next one is not longer
 
 }  // namespace
 
@@ -37,10 +38,13 @@ StepResult ConvergedStepper::step(State& s, double h) {
         place_handles(s.time);
         level_ = level;
         const double tried_from = previous_h_;
+        const int iterations_before = result.iterations;
         try {
             advance(s, part, result);
             ++at;
-            while (level > 0 && at % 2 == 0) at /= 2, --level;   // on a coarser grid again: try the longer step
+            const bool is_easy = result.iterations - iterations_before <= easy_iterations;
+            const bool is_done = at == (1L << level);
+            while (level > 0 && at % 2 == 0 && (is_easy || is_done)) at /= 2, --level;   // on a coarser grid again
         } catch (const NumericalError& e) {
             if (tried_from > 0 && params_.method == StepMethod::bdf2) {
                 restart();                                       // first without the memory, at the same length

@@ -22,7 +22,7 @@ namespace arcsim {
 /// Strain limits are part of the balance: rounds of Newton, each with better multipliers (LimitRounds).
 ///
 /// A step fails when the iteration does not converge, a number is not finite, or a face is stretched beyond
-/// the limit. It is then halved, the halves again, up to `max_halvings` times.
+/// the limit. It is then halved, the halves again, up to `max_halvings` times; parts grow again once Newton finds them easy.
 class ConvergedStepper final : public ClothStepper {
 public:
     ConvergedStepper(ClothModel& model, const StepParams& params, FillOrder order);

@@ -19,7 +19,7 @@ struct StepParams {
     StepTangent tangent = StepTangent::exact;
     double tolerance = 1e-6;      // of the residual, relative to the largest force in the balance
     int max_iterations = 30;      // per step
-    int max_halvings = 8;         // of a step that fails
+    int max_halvings = 16;        // of a step that fails
     SolverKind linear_solver = SolverKind::automatic;
     std::optional<double> max_stretch;   // a face beyond it means a failed step
 };
