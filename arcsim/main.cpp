@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
     resume->add_option("FRAME", a.frame, "Frame to continue from")->required()->check(CLI::NonNegativeNumber);
     resume->add_option("SCENE", a.scene, "Scene file")->required();
     for (CLI::App* command : {&app, resume}) {
-        command->add_flag("--ignore-unsupported", a.ignore_unsupported, "Leave out what is not modelled instead of stopping");
+        command->add_flag("--ignore-unsupported", a.ignore_unsupported, "Leave out what is not modelled, and keys that are not known, instead of stopping");
         command->add_flag("--quiet", a.quiet, "Only warnings and errors");
         command->add_flag("--json", a.json, "Progress as one JSON object a line");
         command->add_option("--threads", a.threads, "Threads of the dense kernels")->check(CLI::Range(0, 256));

@@ -39,8 +39,10 @@ void ParamsReader::leave() {
         std::vector<std::string> known = level.known;
         std::sort(known.begin(), known.end());
         known.erase(std::unique(known.begin(), known.end()), known.end());
-        throw UnknownKeyError(node.place() + "is not a known key." + (guess.empty() ? "" : " Did you mean \"" + guess + "\"?") +
-                                  (known.empty() ? "" : " Known: " + join(known) + "."), key, !guess.empty());
+        const std::string text = node.place() + "is not a known key." + (guess.empty() ? "" : " Did you mean \"" + guess + "\"?") +
+                                 (known.empty() ? "" : " Known: " + join(known) + ".");
+        if (unsupported_ == Unsupported::error) throw UnknownKeyError(text, key, !guess.empty());
+        warnings_.push_back(text + " Ignored as asked.");
     }
     levels_.pop_back();
 }

@@ -53,12 +53,19 @@ void Handles::set_up_circle(Handle& h, const ClothMesh& mesh) {
     const double radius = p.circumference / (2 * std::numbers::pi);
     std::vector<double> length(mesh.n_nodes(), 0);
     std::vector<int> vert(mesh.n_nodes(), -1);
-    std::set<std::pair<int, int>> seen;
+    std::set<std::pair<int, int>> labelled, seen;
+    for (const EdgeRecord& e : mesh.edges)
+        if (e.label == p.label) labelled.insert(std::minmax(e.node[0], e.node[1]));
+    // The circle's edges are those with its label (el lines); in a mesh without any, those between labelled nodes.
+    const auto is_on_circle = [&](int a, int b) {
+        if (!labelled.empty()) return labelled.contains(std::minmax(a, b));
+        return mesh.node_label[a] == p.label && mesh.node_label[b] == p.label;
+    };
     for (int f = 0; f < mesh.n_faces(); ++f)
         for (int k = 0; k < 3; ++k) {
             const int a = mesh.face_nodes[f][k], b = mesh.face_nodes[f][(k + 1) % 3];
             if (vert[a] < 0) vert[a] = mesh.face_verts[f][k];
-            if (mesh.node_label[a] != p.label || mesh.node_label[b] != p.label) continue;
+            if (!is_on_circle(a, b)) continue;
             if (!seen.insert(std::minmax(a, b)).second) continue;
             const double l = (mesh.u[mesh.face_verts[f][k]] - mesh.u[mesh.face_verts[f][(k + 1) % 3]]).norm();
             length[a] += l;

@@ -59,7 +59,7 @@ void check_modelled(const SceneParams& scene, const std::string& source, Unsuppo
         if (std::find(modules.begin(), modules.end(), name) != modules.end()) continue;
         const std::string guess = nearest_word(name, modules);
         warnings.push_back(source + ": /disable: \"" + name + "\" is no module" +
-                           (guess.empty() ? "" : "; did you mean \"" + guess + "\"?") + " Modules: " + join(modules) + ".");
+                           (guess.empty() ? "." : "; did you mean \"" + guess + "\"?") + " Modules: " + join(modules) + ".");
     }
     const bool no_contact = judge.all_disabled({"proximity", "collision"});
     if (!is_empty(scene.obstacles) && !no_contact)

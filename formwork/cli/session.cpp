@@ -26,7 +26,7 @@ void add_scene_arguments(CLI::App* command, SceneArguments& arguments, bool with
         ->type_name("KEY=VALUE")->take_all()->allow_extra_args(false);
     command->add_option("--threads", arguments.threads, "Threads to compute with; 0: as the problem's size suggests")->type_name("N")->check(CLI::Range(0, 256).description(""));
     command->add_flag("--ignore-unsupported", arguments.ignore_unsupported,
-                      "Warn about ArcSim keys that are not supported instead of stopping");
+                      "Warn about keys that are not supported or not known instead of stopping");
     if (!with_output) return;
     command->add_option("-o,--output", arguments.out, "Output folder; default: out/NAME of the scene")->type_name("FOLDER");
     command->add_flag("--resume", arguments.resume, "Keep stages that are finished for this very scene, go on after them");

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "arcsim/base/error.hpp"
+#include "arcsim/mesh/obj_io.hpp"
 #include "arcsim/scene/handles.hpp"
 #include "arcsim/scene/morph.hpp"
 #include "arcsim/scene/motion.hpp"
@@ -101,6 +102,29 @@ TEST_CASE("errors of motions name the keyframe") {
     CHECK_THROWS_WITH(motions_from(R"([[{"time": 1}, {"time": 1}]])"), Contains("/0/1/time") && Contains("after the keyframe"));
     CHECK_THROWS_WITH(motions_from(R"([[]])"), Contains("at least one keyframe"));
     CHECK_THROWS_WITH(motions_from(R"([[{"time": 0, "transfrom": {}}]])"), Contains("Did you mean \"transform\""));
+}
+
+TEST_CASE("a circle's springs are as stiff as the edges beside them that have its label; without such edges, those between labelled nodes") {
+    const std::string nodes = "v 0 0 0\nnl 2\nv 1 0 0\nnl 2\nv 1 2 0\nnl 2\n", face = "f 1 2 3\n";
+    SceneParams scene;
+    scene.cloths.resize(1);
+    HandleParams circle;
+    circle.type = HandleType::circle;
+    circle.label = 2;
+    circle.circumference = 6;
+    scene.handles = {circle};
+    const std::vector<Motion> motions;
+    const auto stiffness = [&](const std::string& edges) {
+        const ClothMesh mesh = parse_obj(nodes + edges + face, "circle.obj");
+        ClothModel model;
+        Handles(scene, 0, mesh, motions).update(0, VectorXd::Zero(9), model);
+        std::vector<double> k;
+        for (const auto& t : model.springs.targets()) k.push_back(t.stiffness / scene.magic.handle_stiffness);
+        return k;
+    };
+    CHECK(stiffness("e 1 2\nel 2\ne 2 3\nel 2\n") == std::vector<double>{1, 3, 2});
+    CHECK(stiffness("e 1 2\nel 5\n")[1] == Approx(3));
+    CHECK(stiffness("")[0] == Approx(1 + std::sqrt(5)));
 }
 
 TEST_CASE("a handle's strength is 1 while it holds and fades with the fourth power") {
