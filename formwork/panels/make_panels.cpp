@@ -101,15 +101,19 @@ PanelSet make_panels(const Segmentation& s, const PanelParams& params) {
         turn_to_grain(s, surface_shapes.back(), params.warp, panel);
         if (shrinks) shrink_to_weave(params.compensation, panel, shapes.back());
     }
-    place_notches(set);
-    match_seams(set, s, shapes);
+    constexpr int rounds = 3;   // the second one, seldom needed, places notches on seams that match already
+    for (int round = 0; round < rounds; ++round) {
+        place_notches(set, s);
+        match_seams(set, s, shapes);
+        measure_seams(set, s);
+        if (!notches_too_far_apart(set)) break;
+    }
     for (std::size_t p = 0; p < set.panels.size(); ++p) {
         move_to_origin(set.panels[p]);
         measure_grain(s, surface_shapes[p], set.panels[p]);
         measure_panel(shapes[p], set.panels[p]);
         check_panel(set.panels[p], params);
     }
-    measure_seams(set, s);
     for (std::size_t i = 0; i < set.seams.size(); ++i) check_seam(set, i);
     set.metrics = measure_set(set);
     return set;

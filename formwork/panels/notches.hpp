@@ -8,11 +8,10 @@ namespace formwork {
 
 enum class NotchShape { slit, tee, vee };
 
-/// What tells the seams of a bag apart: the strokes of a seam's first notch, in their order along the seam, and
-/// how far from its start it stands. The later notches are single slits.
+/// What tells the seams of a bag apart: the strokes of a seam's first notch, in their order along the seam. The later
+/// notches are single slits.
 struct NotchStyle {
     std::vector<NotchShape> strokes{NotchShape::slit};
-    double first = 0.5;   // distance of the first notch from the start, in notch intervals; never 1
     /// Distance from the first stroke to the last, mm.
     double width_mm() const;
 };
@@ -26,10 +25,14 @@ std::string notch_words(const NotchStyle& style);
 
 /// Chooses style and notch positions of every sewn seam. With m notches an interval is L / (m + first): the
 /// first notch stands `first` intervals from the start, the last one a whole interval from the end, so the
-/// row read backwards never fits and no piece can be sewn in reverse. No two seams have the same style; the
-/// shortest seams get the narrowest. Panels lie flat already: notches are no further apart than
-/// params.notch_spacing_mm on the cloth, nor on the surface.
-void place_notches(PanelSet& set);
+/// row read backwards never fits and no piece can be sewn in reverse; of several `first` the one is taken whose
+/// row is farthest from fitting. L is measured edge by edge where the seam is longest: on the surface or on either
+/// piece, which lie flat already. So no two notches are further apart than params.notch_spacing_mm on any of them.
+/// No two seams have the same style; the shortest seams get the narrowest.
+void place_notches(PanelSet& set, const Segmentation& s);
+
+/// Whether notches of the flat pieces are further apart than params.notch_spacing_mm; PanelSeam::notch is up to date.
+bool notches_too_far_apart(const PanelSet& set);
 
 /// Middle of stroke i of n from the notch's own place, mm along the seam.
 double stroke_offset_mm(const NotchStyle& style, std::size_t stroke);

@@ -94,7 +94,7 @@ TEST_CASE("notches tell a piece's seams apart and cannot be read backwards") {
             before = f;
             for (double g : a.notch) nearest = std::min(nearest, std::abs(f - (1 - g)));
         }
-        CHECK(std::max(longest, 1 - before) * a.side[0].length <= 0.1 * 1.05);
+        CHECK(std::max(longest, 1 - before) * a.side[0].length <= 0.1);
         CHECK(nearest * a.rest_length > 0.005);   // reversed, every notch is off by more than 5 mm
         for (const PanelSeam& b : set.seams)
             if (&a != &b && !b.is_rim()) CHECK(a.style != b.style);
