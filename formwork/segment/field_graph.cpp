@@ -80,6 +80,7 @@ void FieldGraph::add_face(const Surface& s, const Topology& t, const SurfaceFiel
     std::array<Vector2d, 3> corner;
     for (int k = 0; k < 3; ++k) corner[k] = frame.local(s.x[tri[k]] - s.x[tri[0]]);
     std::vector<Local> here;
+    here.reserve(3 + 3 * static_cast<std::size_t>(per_edge));
     for (int k = 0; k < 3; ++k) here.push_back({tri[k], corner[k], vertex_layer_[f][k], k});
     for (int k = 0; k < 3; ++k) {
         const int e = t.face_edges[f][k];
@@ -114,27 +115,33 @@ void FieldGraph::add_face(const Surface& s, const Topology& t, const SurfaceFiel
         const double angle = fan_angle_[f][p.side] + std::atan2(edge.x() * d.y() - edge.y() * d.x(), edge.dot(d));
         return angle > least_landing && angle < total_angle_[p.sample] - least_landing;
     };
-    for (const Local& p : here)
-        for (const Local& q : here) {
-            if (&p == &q || !may_join(p, q)) continue;
-            const bool p_singular = p.side < 3 && singular_[p.sample], q_singular = q.side < 3 && singular_[q.sample];
-            if (q_singular) continue;
+    const auto is_singular = [&](const Local& p) { return p.side < 3 && singular_[p.sample]; };
+    const auto add_arc = [&](const Local& p, const Local& q, int k, double c) {   // p -> q along arm k of the face
+        if (is_singular(q)) return;
+        const Arc arc{4 * q.sample + modulo4(k - q.offset), static_cast<float>(c)};
+        if (is_singular(p))
+            leaving.push_back({p.sample, f, modulo4(k), arc});
+        else
+            raw.push_back({4 * p.sample + modulo4(k - p.offset), arc});
+    };
+    const int spread = cost.theta_max > quarter_turn / 2 + 1e-9 ? 1 : 0;
+    std::array<double, 2> stretch;   // along the arms; opposite ones are alike
+    for (int k = 0; k < 2; ++k) stretch[k] = stretch_along(field.data[f], field.theta[f] + k * quarter_turn - field.data[f].theta);
+    for (std::size_t i = 0; i < here.size(); ++i)
+        for (std::size_t j = i + 1; j < here.size(); ++j) {
+            const Local &p = here[i], &q = here[j];
+            if (!may_join(p, q)) continue;
             const Vector2d d = q.x - p.x;
             if (!lands_well(p, d) || !lands_well(q, -d)) continue;
-            const double angle = std::atan2(d.y(), d.x());
-            const int nearest = nearest_quarters(angle - field.theta[f]);
-            const int spread = cost.theta_max > quarter_turn / 2 + 1e-9 ? 1 : 0;
+            const double angle = std::atan2(d.y(), d.x()) - field.theta[f], length = d.norm();
+            const int nearest = nearest_quarters(angle);
             for (int k = nearest - spread; k <= nearest + spread; ++k) {
-                const double arm = field.theta[f] + k * quarter_turn;
-                const double drift = std::remainder(angle - arm, 4 * quarter_turn);
+                const double drift = std::remainder(angle - k * quarter_turn, 4 * quarter_turn);
                 if (std::abs(drift) > cost.theta_max + 1e-9) continue;
                 const double r = drift / cost.theta_max;
-                const double c = d.norm() / stretch_along(field.data[f], arm - field.data[f].theta) * (1 + cost.alpha * r * r);
-                const Arc arc{4 * q.sample + modulo4(k - q.offset), static_cast<float>(c)};
-                if (p_singular)
-                    leaving.push_back({p.sample, f, modulo4(k), arc});
-                else
-                    raw.push_back({4 * p.sample + modulo4(k - p.offset), arc});
+                const double c = length / stretch[k & 1] * (1 + cost.alpha * r * r);
+                add_arc(p, q, k, c);
+                add_arc(q, p, k + 2, c);   // back along the opposite arm
             }
         }
 }

@@ -78,13 +78,13 @@ CutMesh mended(const LayoutJob& job, const CutMesh& cut, std::vector<int>& singu
 
 /// Mends and judges by turns: a straightened seam lies elsewhere by a part of an edge, and panels that no longer keep the
 /// bounds after that are laid out anew. @param planes  the search stays on their positive sides
-Layout polished(const LayoutJob& job, const CutMesh& cut, int max_panels, std::vector<int>& singular,
+Layout polished(const LayoutJob& job, const CutMesh& cut, int max_panels, std::vector<int>& singular, Rework what,
                 const std::vector<MirrorPlane>& planes = {}) {
     std::optional<Layout> layout;
     for (int round = 0;; ++round) {
         layout.emplace(layout_on(job, mended(job, layout ? layout->cut() : cut, singular), max_panels, Stage::polish));
         for (const MirrorPlane& plane : planes) layout->keep_one_side(plane.point, plane.normal);
-        if (round == repair_rounds || !layout->rework()) return std::move(*layout);
+        if (round == repair_rounds || !layout->rework(what)) return std::move(*layout);
     }
 }
 
@@ -94,12 +94,14 @@ Layout free_layout(const LayoutJob& job, const Base& base) {
         if (!layout.add_curve(stroke_curve(layout, job.strokes[i], static_cast<int>(i)), true))
             throw arcsim::InputError("segment: stroke " + std::to_string(i + 1) + " crosses itself. Draw it as several strokes.");
     layout.search();
+    layout.rework(Rework::all);
     std::vector<int> singular = singular_nodes(job, layout.cut().surface());
-    return polished(job, layout.cut(), job.params.max_panels, singular);
+    return polished(job, layout.cut(), job.params.max_panels, singular, Rework::all);
 }
 
 /// The layout of the part on one side of all planes, and its mirror images; nothing when they do not fit.
-std::optional<Layout> mirrored_layout(const LayoutJob& job, const Base& base, const std::vector<MirrorPlane>& planes) {
+/// @param what  is laid out anew: a first look does without what only looks bad
+std::optional<Layout> mirrored_layout(const LayoutJob& job, const Base& base, const std::vector<MirrorPlane>& planes, Rework what) {
     MeshOnInput settled = base.mesh;
     for (const MirrorPlane& plane : planes) settle_on_plane(settled, base.topology, plane, job.s, job.topology);
     const int max_panels = std::max(1, job.params.max_panels >> planes.size());
@@ -115,8 +117,9 @@ std::optional<Layout> mirrored_layout(const LayoutJob& job, const Base& base, co
     for (const MirrorPlane& plane : planes) part.keep_one_side(plane.point, plane.normal);
     if (part.n_panels() == 0) return {};
     part.search();
+    part.rework(what);
     std::vector<int> singular = singular_nodes(job, part.cut().surface());
-    part = polished(job, part.cut(), max_panels, singular, planes);
+    part = polished(job, part.cut(), max_panels, singular, what, planes);
     MirroredMesh whole = mirror_part(part.cut(), part.kept_faces(), job.s, job.topology, planes);
     if (!whole.is_sound) return {};
     CutMesh cut = uncut(job, whole.mesh);
@@ -126,7 +129,7 @@ std::optional<Layout> mirrored_layout(const LayoutJob& job, const Base& base, co
     return layout;
 }
 
-/// The planes themselves, and pairs of them at right angles.
+/// Two planes at right angles, when there are such, and the best plane alone.
 std::vector<std::vector<MirrorPlane>> plane_sets(const LayoutJob& job) {
     std::vector<std::vector<MirrorPlane>> sets;
     if (job.params.symmetry != Symmetry::detect || !job.strokes.empty() || job.params.max_panels < 2) return sets;
@@ -134,12 +137,12 @@ std::vector<std::vector<MirrorPlane>> plane_sets(const LayoutJob& job) {
     const double close = 0.25 * arcsim::mean_edge_length(job.s);
     std::erase_if(planes, [&](const MirrorPlane& p) { return p.deviation >= close; });
     if (planes.empty()) return sets;
-    sets.push_back({planes[0]});
     for (std::size_t i = 1; i < planes.size() && job.params.max_panels >= 4; ++i)
         if (std::abs(planes[0].normal.dot(planes[i].normal)) < 0.02) {
             sets.push_back({planes[0], planes[i]});
             break;
         }
+    sets.push_back({planes[0]});
     return sets;
 }
 
@@ -154,19 +157,23 @@ CutMesh best_layout(const LayoutJob& job, const Base& base) {
     constexpr double worth_of_symmetry = 2;      // times the free layout's cost
     constexpr double worth_of_two_planes = 1.4;  // times that of one plane: each pattern is cut four times instead of twice
     std::optional<Layout> best;
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& planes : plane_sets(job)) {
-        const auto found = mirrored_layout(job, base, planes);
-        if (!found) continue;
+    double most = std::numeric_limits<double>::infinity();   // that another layout may cost to be taken
+    const auto offer = [&](const std::vector<MirrorPlane>& planes, Rework what) {
+        const auto found = mirrored_layout(job, base, planes, what);
+        if (!found) return false;
         Layout layout = judged(job, found->cut());
-        const double worth = planes.size() > 1 && layout.keeps_bounds() ? worth_of_two_planes : 1;
-        if (layout.n_panels() < 2 || layout.cost() >= worth * least) continue;
-        least = layout.cost();
+        if (layout.n_panels() < 2 || layout.cost() >= most) return false;
+        most = layout.cost() / (planes.size() > 1 && layout.keeps_bounds() ? worth_of_two_planes : 1);
         best.emplace(std::move(layout));
+        return true;
+    };
+    for (const auto& planes : plane_sets(job)) {   // after a first one that keeps the bounds, another must win at first look
+        const bool is_second = best && best->keeps_bounds();
+        if (offer(planes, is_second ? Rework::out_of_bounds : Rework::all) && is_second) offer(planes, Rework::all);
     }
     if (best && best->keeps_bounds()) return best->cut();
     Layout free = judged(job, free_layout(job, base).cut());
-    return best && least < worth_of_symmetry * free.cost() ? best->cut() : free.cut();
+    return best && best->cost() < worth_of_symmetry * free.cost() ? best->cut() : free.cut();
 }
 
 /// Everything that the next stages ask for of a mended cut mesh.

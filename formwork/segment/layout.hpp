@@ -17,6 +17,9 @@ struct LayoutLimits {
     std::function<void(std::string_view)> on_step;   // told, a few times a second, what stands; may throw to end the search
 };
 
+/// Which panels are laid out anew.
+enum class Rework { out_of_bounds, all };
+
 /// Panels of a surface that is being cut. Few panels, not a quad layout: curves are added where they lower the
 /// stretch most per metre until every panel is a disk that flattens within the bound; then every seam that
 /// is not needed goes again.
@@ -32,12 +35,13 @@ public:
     /// Makes the curve (of the cut mesh's numbering) a seam before the search; one that is `given` stays.
     /// @returns false, and nothing is marked, when the curve crosses itself
     [[nodiscard]] bool add_curve(const Curve& curve, bool given);
-    /// Opens and refines, prunes, improves; then lays groups around panels out of bounds out anew.
+    /// Opens and refines, prunes, improves.
     void search();
     /// Splits what is no disk or does not lie flat within the bound. @returns whether a seam was added
-    bool refine();
-    /// Lays out anew, with some of its neighbours, every panel that is out of bounds or hard to sew. @returns whether that changed anything
-    bool rework();
+    bool refine() { return refine(limits_.max_panels); }
+    /// Lays out anew, with some of its neighbours, every panel that is out of bounds; with `Rework::all` those that are hard
+    /// to sew, too. @returns whether that changed anything
+    bool rework(Rework what);
     /// Leaves out of the search every panel that lies on the far side of a plane.
     void keep_one_side(const Vector3d& point, const Vector3d& normal);
     /// Per face: 1 where the search went on.
@@ -80,6 +84,7 @@ private:
     };
     std::vector<Trial> try_splits(const PanelPatch& patch, const PanelQuality& q, SplitRules rules, int count) const;
     void measure_flat(Trial& trial) const;
+    bool refine(int most_panels);
     bool split(int panel, bool anyhow);
     int worst_panel();
 

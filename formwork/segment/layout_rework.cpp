@@ -13,7 +13,8 @@ namespace {
 
 constexpr int first_cuts = 4;          // that a new layout of a group is begun with
 constexpr double most_work = 30;       // faces that are laid out anew, all groups and cuts, over the mesh's
-constexpr double taste_work = 10;      // the part of it that may go into panels that only look bad
+constexpr double taste_work = 3;       // the part of it that may go into panels that only look bad
+constexpr double least_gain = 0.02;    // in panels: for less, a layout is not changed
 constexpr double bad_taste = 0.25;     // in panels: what a panel's outline costs
 constexpr int most_neighbours = 3;     // of a panel, longest border first, that are joined one or two at a time
 constexpr double far_apart = 0.12;     // of the group's size: distance between the first cuts' middles
@@ -101,15 +102,18 @@ bool Layout::rework(const std::vector<int>& group, double& work_left) {
     }
     work_left -= static_cast<double>(cuts.size() * patch.surface.faces.size());
     const State joined{cut_, panel_, panels_};
+    const double others = cost() - panel_cost(quality(a), rules_);   // what stays: the other panels and their seams
+    const int n_others = n_panels() - 1;
     std::optional<State> best;
-    double least = before - 1e-6;
+    double least = before - least_gain;
     for (const Curve& curve : cuts) {
         restore(joined);
         if (!curve.empty()) {
             if (cut_.insert_seam(curve).empty()) continue;
             relabel(a);
         }
-        refine();
+        // A panel costs at least 1, and pruning rarely takes away more than one: with more panels than that, no gain is left.
+        refine(std::min(limits_.max_panels, n_others + static_cast<int>(std::min(1000., least - others)) + 1));
         prune();
         const double now = cost();
         if (now >= least) continue;
@@ -128,7 +132,7 @@ void Layout::restore(const State& s) {
 }
 
 /// Groups around every panel that is out of bounds or hard to sew, the worst first, until none is left or nothing helps.
-bool Layout::rework() {
+bool Layout::rework(Rework what) {
     bool any = false;
     const double all = most_work * cut_.surface().n_faces();
     double left = all;
@@ -137,7 +141,8 @@ bool Layout::rework() {
         changed = false;
         std::vector<std::pair<double, int>> order;
         for (int p = 0; p < static_cast<int>(panels_.size()); ++p)
-            if (panels_[p].alive && !panels_[p].frozen && panel_cost(quality(p), rules_) > 1 + bad_taste)
+            if (panels_[p].alive && !panels_[p].frozen && panel_cost(quality(p), rules_) > 1 + bad_taste &&
+                (what == Rework::all || !formwork::keeps_bounds(quality(p), rules_)))
                 order.emplace_back(-panel_cost(quality(p), rules_), p);
         std::sort(order.begin(), order.end());
         for (const auto& [weight, seed] : order) {

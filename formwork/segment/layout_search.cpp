@@ -84,11 +84,11 @@ int Layout::worst_panel() {
     return worst;
 }
 
-bool Layout::refine() {
+bool Layout::refine(int most_panels) {
     bool any = false;
     for (int p = worst_panel(); p >= 0; p = worst_panel()) {
         const bool is_disk = quality(p).is_disk;
-        if (is_disk && n_panels() >= limits_.max_panels) break;
+        if (is_disk && n_panels() >= most_panels) break;
         if (split(p, false) || (!is_disk && split(p, true)))
             any = true;
         else
@@ -230,7 +230,6 @@ void Layout::search() {
         for (Panel& p : panels_) p.stuck = false;
         prune();
     }
-    rework();
 }
 
 }  // namespace formwork

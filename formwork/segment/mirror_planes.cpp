@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -76,8 +77,8 @@ public:
     /// The plane refined by closest points; none when it does not hold.
     std::optional<MirrorPlane> check(MirrorPlane plane) const {
         constexpr int refinements = 6;
+        if (mean_error(plane, nullptr, 10 * tolerance_) > 10 * tolerance_) return std::nullopt;
         double error = mean_error(plane, nullptr);
-        if (error > 10 * tolerance_) return std::nullopt;
         for (int i = 0; i < refinements && error > 1e-3 * tolerance_; ++i) {
             MirrorPlane next;
             mean_error(plane, &next);
@@ -113,18 +114,20 @@ public:
 private:
     /// Mean distance of mirrored sample nodes from the surface. `best`: the plane that fits the pairs of
     /// nodes x and the surface points y nearest to their images: minimises sum |mirror(x) - y|².
-    double mean_error(const MirrorPlane& plane, MirrorPlane* best) const {
+    /// @param enough  of the mean: when the sum so far exceeds it already, the rest is not looked at
+    double mean_error(const MirrorPlane& plane, MirrorPlane* best, double enough = std::numeric_limits<double>::infinity()) const {
+        const double n = static_cast<double>(sample_.size());
         double sum = 0;
         Vector3d mx = Vector3d::Zero(), my = Vector3d::Zero();
         std::vector<Vector3d> hit;
         for (int v : sample_) {
             const auto h = near_.point(plane.mirror(s_.x[v]));
             sum += h.distance;
+            if (sum > n * enough) break;
             hit.push_back(h.x);
             mx += s_.x[v];
             my += h.x;
         }
-        const double n = static_cast<double>(sample_.size());
         if (best) {
             Matrix3d m = Matrix3d::Zero();
             for (std::size_t i = 0; i < sample_.size(); ++i) m += (s_.x[sample_[i]] - mx / n) * (hit[i] - my / n).transpose();
@@ -141,12 +144,24 @@ private:
     std::vector<int> sample_, all_;
 };
 
+/// As many planes of the best grade as are asked for, two of them at right angles: on a sphere or a body of revolution
+/// nothing better comes.
+template <class Grade>
+bool is_enough(const std::vector<MirrorPlane>& found, const Grade& grade, int asked) {
+    std::vector<Vector3d> best;
+    for (const MirrorPlane& p : found)
+        if (grade(p) == 0) best.push_back(p.normal);
+    if (static_cast<int>(best.size()) < asked) return false;
+    return std::any_of(best.begin() + 1, best.end(), [&](const Vector3d& n) { return std::abs(n.dot(best[0])) < 0.02; });
+}
+
 }  // namespace
 
 std::vector<MirrorPlane> find_mirror_planes(const Surface& s, const Topology& t, const MirrorParams& params) {
     constexpr double same_plane = 0.999;   // cosine between normals (2.5 degrees)
     const Moments moments(s);
     const Finder finder(s, t, params);
+    const auto grade = [&](const MirrorPlane& p) { return static_cast<int>(p.deviation / (0.1 * finder.tolerance())); };
     std::vector<MirrorPlane> found;
     for (const Vector3d& normal : candidate_normals(moments.second)) {
         const auto known = [&](const Vector3d& n) {
@@ -158,9 +173,9 @@ std::vector<MirrorPlane> find_mirror_planes(const Surface& s, const Topology& t,
         plane.normal = normal;
         const auto checked = finder.check(std::move(plane));
         if (checked && !known(checked->normal)) found.push_back(*checked);
+        if (is_enough(found, grade, params.max_planes)) break;
     }
     // Coordinate axes come first in the list of candidates: a stable sort by grades of deviation keeps them ahead.
-    const auto grade = [&](const MirrorPlane& p) { return static_cast<int>(p.deviation / (0.1 * finder.tolerance())); };
     std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) { return grade(a) < grade(b); });
     std::vector<MirrorPlane> chosen;
     while (!found.empty() && static_cast<int>(chosen.size()) < params.max_planes) {

@@ -180,13 +180,20 @@ OutlineShape outline_shape(const PanelPatch& p, double reach) {
     return shape;
 }
 
-double patch_width(const PanelPatch& p) {
-    std::vector<std::vector<std::pair<int, double>>> around(p.surface.n_nodes());
+EdgeLengths::EdgeLengths(const PanelPatch& p) : start_(p.surface.x.size() + 1, 0), arcs_(2 * p.topology.edges.size()) {
+    for (const arcsim::Edge& e : p.topology.edges)
+        for (int v : e.node) ++start_[v + 1];
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    std::vector<int> fill(start_.begin(), start_.end() - 1);
     for (const arcsim::Edge& e : p.topology.edges) {
         const double l = (p.surface.x[e.node[0]] - p.surface.x[e.node[1]]).norm();
-        around[e.node[0]].emplace_back(e.node[1], l);
-        around[e.node[1]].emplace_back(e.node[0], l);
+        arcs_[fill[e.node[0]]++] = {e.node[1], l};
+        arcs_[fill[e.node[1]]++] = {e.node[0], l};
     }
+}
+
+double patch_width(const PanelPatch& p) {
+    const EdgeLengths graph(p);
     using Item = std::pair<double, int>;
     std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
     std::vector<double> distance(p.surface.n_nodes(), std::numeric_limits<double>::infinity());
@@ -198,7 +205,7 @@ double patch_width(const PanelPatch& p) {
         queue.pop();
         if (d > distance[v]) continue;
         widest = std::max(widest, d);
-        for (const auto& [w, l] : around[v])
+        for (const auto& [w, l] : graph.around(v))
             if (d + l < distance[w]) queue.emplace(distance[w] = d + l, w);
     }
     return 2 * widest;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "formwork/segment/cut_mesh.hpp"
@@ -24,6 +25,21 @@ struct PanelPatch {
     bool is_disk() const { return topology.boundary_loops.size() == 1 && topology.euler_characteristic() == 1; }
     double area() const { return arcsim::total_area(surface); }
     double border_length() const;
+};
+
+/// Who is joined to whom by an edge of a patch, and how far away: for walks and shortest paths along edges.
+class EdgeLengths {
+public:
+    struct Arc {
+        int to;
+        double length;   // m
+    };
+    explicit EdgeLengths(const PanelPatch& patch);
+    std::span<const Arc> around(int node) const { return {arcs_.data() + start_[node], arcs_.data() + start_[node + 1]}; }
+
+private:
+    std::vector<int> start_;
+    std::vector<Arc> arcs_;   // in the order of the edges
 };
 
 PanelPatch extract_patch(const CutMesh& cut, const std::vector<int>& faces);

@@ -36,6 +36,17 @@ double solidity_of(const std::vector<Vector2d>& outline) {
     return hull > 0 ? std::abs(area) / hull : 1;
 }
 
+PanelMemory::Flat lay_flat(const PanelPatch& patch, const FlattenParams& params) {
+    try {
+        const FlattenResult flat = flatten_disk(patch.surface, params);
+        std::vector<Vector2d> outline;
+        for (int v : patch.topology.boundary_loops.front()) outline.push_back(flat.u[v]);
+        return {flat.stretch.p95, solidity_of(outline), !outline_crossings(outline, 1).empty(), false};
+    } catch (const arcsim::NumericalError&) {
+        return {.failed = true};
+    }
+}
+
 }  // namespace
 
 PanelQuality look_at(const PanelPatch& patch, const SplitRules& rules, double calibration) {
@@ -47,7 +58,9 @@ PanelQuality look_at(const PanelPatch& patch, const SplitRules& rules, double ca
     q.corners = static_cast<int>(corner_nodes(patch).size());
     q.width = patch_width(patch);
     q.shape = outline_shape(patch, rules.min_width);
-    q.estimate = StretchModel(patch, estimate_cells).whole().p95;
+    const auto [known, is_new] = rules.memory->estimate.try_emplace(PanelMemory::key_of(patch.surface));
+    if (is_new) known->second = StretchModel(patch, estimate_cells).whole().p95;
+    q.estimate = known->second;
     q.p95 = calibration * q.estimate;
     return q;
 }
@@ -55,16 +68,13 @@ PanelQuality look_at(const PanelPatch& patch, const SplitRules& rules, double ca
 void measure_flat(const PanelPatch& patch, const SplitRules& rules, PanelQuality& q) {
     if (!q.is_disk || q.is_flattened || q.p95 > hopeless * rules.max_distortion) return;
     q.is_flattened = true;
-    try {
-        const FlattenResult flat = flatten_disk(patch.surface, rules.flattening);
-        q.p95 = flat.stretch.p95;
-        std::vector<Vector2d> outline;
-        for (int v : patch.topology.boundary_loops.front()) outline.push_back(flat.u[v]);
-        q.solidity = solidity_of(outline);
-        q.overlaps = !outline_crossings(outline, 1).empty();
-    } catch (const arcsim::NumericalError&) {   // cannot be laid flat without folds: as bad as it gets
-        q.p95 = std::max(q.estimate, hopeless * rules.max_distortion);
-    }
+    const auto [known, is_new] =
+        rules.memory->flat.try_emplace(PanelMemory::key_of(patch.surface) + static_cast<PanelMemory::Key>(rules.flattening.max_iterations));
+    if (is_new) known->second = lay_flat(patch, rules.flattening);
+    const PanelMemory::Flat& flat = known->second;
+    q.p95 = flat.failed ? std::max(q.estimate, hopeless * rules.max_distortion) : flat.p95;   // as bad as it gets
+    q.solidity = flat.solidity;
+    q.overlaps = flat.overlaps;
 }
 
 double calibration_of(const PanelQuality& q) {

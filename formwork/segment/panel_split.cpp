@@ -96,19 +96,16 @@ Pieces cut_pieces(const PanelPatch& p, const Curve& curve) {
             if (d < distance[v]) queue.emplace(distance[v] = d, v);
         }
     }
-    std::vector<std::vector<std::pair<int, double>>> around(s.n_nodes());
-    for (const arcsim::Edge& e : p.topology.edges) {
-        if (crossed.count(std::minmax(e.node[0], e.node[1]))) continue;
-        const double l = (s.x[e.node[0]] - s.x[e.node[1]]).norm();
-        around[e.node[0]].emplace_back(e.node[1], l);
-        around[e.node[1]].emplace_back(e.node[0], l);
-    }
+    std::vector<char> near(s.n_nodes(), 0);   // at an edge that is crossed
+    for (const auto& [a, b] : crossed) near[a] = near[b] = 1;
+    const auto passable = [&](int a, int b) { return !near[a] || !near[b] || !crossed.count(std::minmax(a, b)); };
+    const EdgeLengths graph(p);
     while (!queue.empty()) {
         const auto [d, v] = queue.top();
         queue.pop();
         if (d > distance[v]) continue;
-        for (const auto& [w, l] : around[v])
-            if (d + l < distance[w]) queue.emplace(distance[w] = d + l, w);
+        for (const auto& [w, l] : graph.around(v))
+            if (d + l < distance[w] && passable(v, w)) queue.emplace(distance[w] = d + l, w);
     }
     std::vector<char> seen(s.n_nodes(), 0);
     Pieces pieces;
@@ -122,8 +119,8 @@ Pieces cut_pieces(const PanelPatch& p, const Curve& curve) {
             const int v = stack.back();
             stack.pop_back();
             widest = std::max(widest, distance[v]);
-            for (const auto& [w, l] : around[v])
-                if (!seen[w] && !blocked[w]) {
+            for (const auto& [w, l] : graph.around(v))
+                if (!seen[w] && !blocked[w] && passable(v, w)) {
                     seen[w] = 1;
                     stack.push_back(w);
                 }

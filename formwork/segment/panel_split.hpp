@@ -1,10 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "formwork/flatten/flatten.hpp"
 #include "formwork/segment/field_graph.hpp"
-#include "formwork/segment/panel_patch.hpp"
+#include "formwork/segment/panel_memory.hpp"
 #include "formwork/segment/stretch_estimate.hpp"
 
 namespace formwork {
@@ -18,6 +19,7 @@ struct SplitRules {
     int trials = 24;                // seeds of candidate curves per panel
     double spacing = 0;             // m between the middles of different cuts; 0: a quarter of min_width
     FlattenParams flattening = FlattenParams::fast();   // by which panels are judged
+    std::shared_ptr<PanelMemory> memory = std::make_shared<PanelMemory>();   // of panels judged so far; shared by copies
     double calibration = 1;         // stretch of the panel laid flat over its estimate: corrects the pieces' estimates
 };
 

@@ -15,28 +15,16 @@ namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-double corner_angle_at(const Surface& s, const arcsim::Triangle& t, int k) {
+/// Angle at a corner, and its cotangent.
+std::pair<double, double> corner_angle_at(const Surface& s, const arcsim::Triangle& t, int k) {
     const Vector3d a = s.x[t[(k + 1) % 3]] - s.x[t[k]], b = s.x[t[(k + 2) % 3]] - s.x[t[k]];
-    return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
-struct NodeGraph {
-    std::vector<std::vector<std::pair<int, double>>> around;   // neighbour, length
-};
-
-NodeGraph node_graph(const PanelPatch& p) {
-    NodeGraph g{std::vector<std::vector<std::pair<int, double>>>(p.surface.x.size())};
-    for (const arcsim::Edge& e : p.topology.edges) {
-        const double l = (p.surface.x[e.node[0]] - p.surface.x[e.node[1]]).norm();
-        g.around[e.node[0]].emplace_back(e.node[1], l);
-        g.around[e.node[1]].emplace_back(e.node[0], l);
-    }
-    return g;
+    const double sine = a.cross(b).norm(), cosine = a.dot(b);
+    return {std::atan2(sine, cosine), cosine / sine};
 }
 
 /// Cell of every inner node: nearest of seeds that are `radius` apart, after one round of recentring.
 std::vector<int> make_cells(const PanelPatch& p, double radius, std::vector<int>& seeds) {
-    const NodeGraph g = node_graph(p);
+    const EdgeLengths g(p);
     const int n = p.surface.n_nodes();
     using Item = std::tuple<double, int, int>;
     const auto grow = [&](const std::vector<int>& from) {
@@ -49,7 +37,7 @@ std::vector<int> make_cells(const PanelPatch& p, double radius, std::vector<int>
             queue.pop();
             if (cell[v] >= 0) continue;
             cell[v] = c;
-            for (const auto& [w, l] : g.around[v])
+            for (const auto& [w, l] : g.around(v))
                 if (!p.topology.is_boundary_node(w) && d + l < distance[w]) queue.emplace(distance[w] = d + l, w, c);
         }
         return cell;
@@ -65,7 +53,7 @@ std::vector<int> make_cells(const PanelPatch& p, double radius, std::vector<int>
             const auto [d, w] = queue.top();
             queue.pop();
             if (d > near[w]) continue;
-            for (const auto& [u, l] : g.around[w])
+            for (const auto& [u, l] : g.around(w))
                 if (!p.topology.is_boundary_node(u) && d + l < std::min(radius, near[u])) queue.emplace(near[u] = d + l, u);
         }
     }
@@ -141,15 +129,16 @@ StretchModel::StretchModel(const PanelPatch& p, int max_cells) : impl_(std::make
         const double a = arcsim::face_area(s, f);
         for (int k = 0; k < 3; ++k) {
             const int c = m.cell[t[k]];
+            const auto [angle, cotangent] = corner_angle_at(s, t, k);
             if (c >= 0) {
                 m.area[c] += a / 3;
-                m.curvature[c] -= corner_angle_at(s, t, k);
+                m.curvature[c] -= angle;
             }
             const int i = t[(k + 1) % 3], j = t[(k + 2) % 3];
             const int ci = m.cell[i], cj = m.cell[j];
             if (ci == cj) continue;
             // Flux between two cells, exact for a linear phi: sum of w_ij (x_i - x_j) against the cells' distance.
-            const double w = std::max(0.02, 0.5 / std::tan(corner_angle_at(s, t, k)));
+            const double w = std::max(0.02, 0.5 * cotangent);
             const Vector3d gap = (ci >= 0 ? centre[ci] : s.x[i]) - (cj >= 0 ? centre[cj] : s.x[j]);
             const double g = std::max(0.05 * w, w * (s.x[i] - s.x[j]).dot(gap) / std::max(gap.squaredNorm(), 1e-30));
             if (ci >= 0) entries.emplace_back(ci, ci, g);
