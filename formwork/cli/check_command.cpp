@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 
 #include "arcsim/base/error.hpp"
@@ -75,7 +76,10 @@ void check(const SceneArguments& arguments, const std::string& places_file, Sess
     }
     // What only the stages' own loading finds: sizes, areas, rest coordinates, selectors that hold nothing.
     const BagMesh bag = load_bag_mesh(scene);
-    print(("note: " + mesh_name + ": ").c_str(), bag.notes);
+    std::vector<std::string> news;
+    for (const std::string& note : bag.notes)
+        if (std::find(mesh.warnings.begin(), mesh.warnings.end(), note) == mesh.warnings.end()) news.push_back(note);
+    print(("note: " + mesh_name + ": ").c_str(), news);
     if (!session.quiet) print("  ", modelled(scene, bag.surface.n_nodes()));
     if (scene.has_formwork && !p.segment.field) {
         const std::vector<char> held = held_dofs(scene, bag);

@@ -22,6 +22,14 @@ double metres_per(LengthUnit unit) {
     }
 }
 
+std::string welded_note(int vertices) {
+    return std::to_string(vertices) + " vertices at the places of others are welded (\"weld\": false keeps them apart); vertex numbers of the output differ.";
+}
+
+std::string stray_note(int vertices) {
+    return std::to_string(vertices) + " vertices belong to no face and are left out; vertex numbers of the output differ.";
+}
+
 namespace {
 
 void drop_stray_nodes(ClothMesh& m, std::vector<std::string>& notes) {
@@ -35,7 +43,7 @@ void drop_stray_nodes(ClothMesh& m, std::vector<std::string>& notes) {
         number[i] = kept++;
     }
     if (kept == m.n_nodes()) return;
-    notes.push_back(std::to_string(m.n_nodes() - kept) + " vertices belong to no face and were left out; vertex numbers of the output differ.");
+    notes.push_back(stray_note(m.n_nodes() - kept));
     m.x.resize(kept), m.v.resize(kept), m.ny.resize(kept), m.node_label.resize(kept);
     for (Triangle& t : m.face_nodes)
         for (int& node : t) node = number[node];
@@ -133,8 +141,7 @@ BagMesh prepare_bag_mesh(MeshFile file, const std::string& name, const BagMeshOp
     for (Vector3d& p : bag.cloth.ny) p *= scale;
     check_size(bag.cloth, name, options);
     if (options.weld_nodes)
-        if (const int gone = weld(bag.cloth); gone > 0)
-            bag.notes.push_back(std::to_string(gone) + " vertices at the places of others were welded; vertex numbers of the output differ.");
+        if (const int gone = weld(bag.cloth); gone > 0) bag.notes.push_back(welded_note(gone));
     drop_stray_nodes(bag.cloth, bag.notes);
     bag.surface = bag.cloth.surface();
     bag.topology = arcsim::build_topology(bag.surface, name);

@@ -46,6 +46,11 @@ struct BagMeshOptions {
     bool any_size = false;              // no complaint about a bag of 1 mm or 1 km
 };
 
+/// What is said of vertices that were joined with others at their places, and of those that no face uses: the
+/// mesh's examination and the stages say the same.
+std::string welded_note(int vertices);
+std::string stray_note(int vertices);
+
 /// Brings a mesh file into shape for the stages.
 /// @throws InputError, one line naming the file, the vertex or face (counted from 1, as in OBJ) and the
 ///         remedy: no faces, not a number, a face without area, non-manifold, flipped faces, a size that can

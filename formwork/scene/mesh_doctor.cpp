@@ -146,10 +146,10 @@ MeshDiagnosis examine_mesh(const MeshFile& file, const BagMeshOptions& options, 
         d.warnings.push_back("a bag of " + mm(extent) + " mm is unusual" +
                              (unit.empty() || unit == length_unit_names[static_cast<int>(options.unit)].name ? ": check \"units\"." : "; if the mesh is in " + unit + ", set \"units\": \"" + unit + "\"."));
     }
-    if (welded > 0) d.warnings.push_back(std::to_string(welded) + " vertices at the places of others are welded (\"weld\": false keeps them apart).");
+    if (welded > 0) d.warnings.push_back(welded_note(welded));
 
     const arcsim::TopologyDefects defects = arcsim::find_defects(s);
-    if (!defects.isolated_nodes.empty()) d.warnings.push_back(std::to_string(defects.isolated_nodes.size()) + " vertices belong to no face and are left out.");
+    if (!defects.isolated_nodes.empty()) d.warnings.push_back(stray_note(static_cast<int>(defects.isolated_nodes.size())));
     Places places(s);
     if (!defects.repeated_corner_faces.empty()) {
         d.faults.push_back("faces with the same vertex twice: " + listed(defects.repeated_corner_faces) + ". Delete them.");
