@@ -91,10 +91,13 @@ void Simulation::step() {
         constexpr double unlikely_stretch = 2;   // no cloth: the linearised step has overshot
         if (!has_warned_) {
             const auto [face, stretch] = cloth.model.stretch->largest_stretch(cloth.state.x);
-            if (stretch > unlikely_stretch) {
+            if (!(stretch <= unlikely_stretch)) {
                 warning_ = "step " + std::to_string(steps_ + 1) + ", t = " + format_short(new_time, 6) + " s: face " +
                            std::to_string(face) + " of cloth " + std::to_string(c) + " is stretched " + format_short(stretch) +
-                           " times. The step is too large for the linearised solve: raise /frame_steps, or use /solver/method \"newton_euler\".";
+                           (scene_.solver.method == StepMethod::backward_euler
+                                ? " times. Unless handles ask for it, the step is too large for the linearised solve: raise /frame_steps, or "
+                                  "use /solver/method \"newton_euler\"."
+                                : " times, and the step has converged: handles or loads ask for it. A lower /solver/max_stretch stops such runs.");
                 has_warned_ = true;
             }
         }

@@ -40,6 +40,8 @@ protected:
     virtual void set_own_memory(const std::vector<double>&) {}
     /// Throws when a position is not finite or a face is beyond the limit; names the face.
     void check_state(const VectorXd& x, double max_stretch);
+    /// For messages: a node and the first face at it.
+    std::string place_of(int node) const;
 
     StepParams params_;
     ClothSystem system_;

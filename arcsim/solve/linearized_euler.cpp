@@ -11,7 +11,13 @@ void ClothStepper::check_state(const VectorXd& x, double max_stretch) {
     const auto [face, stretch] = system_.model().stretch->largest_stretch(x);
     if (face < 0 || stretch <= max_stretch) return;
     throw NumericalError("face " + std::to_string(face) + " is stretched " + format_short(stretch) +
-                         " times (limit " + format_short(max_stretch) + ")");
+                         " times (limit " + format_short(max_stretch) + ": /solver/max_stretch)");
+}
+
+std::string ClothStepper::place_of(int node) const {
+    const auto& faces = system_.model().faces;
+    const auto at = std::find_if(faces.begin(), faces.end(), [&](const Triangle& t) { return std::find(t.begin(), t.end(), node) != t.end(); });
+    return "node " + std::to_string(node) + (at == faces.end() ? "" : " (face " + std::to_string(at - faces.begin()) + ")");
 }
 
 void ClothStepper::restart() {
@@ -65,15 +71,17 @@ StepResult LinearizedEuler::step(State& s, double h) {
 
     LinearSolver& solver = system_.solver();
     if (!solver.try_factorize(A))
-        throw NumericalError("the step's matrix is not positive definite at node " +
-                             std::to_string(solver.breakdown().node) +
+        throw NumericalError("the step's matrix is not positive definite at " + place_of(solver.breakdown().node) +
                              ": a material has k_uv² > k_uu k_vv, or a face is inverted");
     const double t2 = cpu_seconds();
     v_ = previous_v_.size() == s.v.size() ? VectorXd(2 * s.v - previous_v_) : s.v;   // a guess: the acceleration goes on
     solver.improve(b_, v_);
     const double t3 = cpu_seconds();
 
-    if (!v_.allFinite()) throw NumericalError("the step gave velocities that are not finite");
+    if (!v_.allFinite()) {
+        const auto bad = std::find_if(v_.begin(), v_.end(), [](double c) { return !std::isfinite(c); });
+        throw NumericalError("the step gave velocities that are not finite at " + place_of(static_cast<int>((bad - v_.begin()) / 3)));
+    }
     x_ = s.x + h * v_;
     if (projection_) {
         try {

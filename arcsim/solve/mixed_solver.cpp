@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "arcsim/base/error.hpp"
@@ -78,6 +79,7 @@ private:
         const double of_solution = b.dot(x) + b.dot(z_);   // xᵀ A x, nearly
         const double target = tolerance * tolerance * (of_solution > 0 ? of_solution : energy);
         double lag = 1;
+        if (!std::isfinite(energy)) return false;   // numbers beyond 1e150: their squares overflow
         if (energy <= target) return true;
         for (int i = 0; i < most_iterations; ++i) {
             A_->multiply_symmetric(p_, Ap_);

@@ -30,7 +30,7 @@ int relax_start(ClothSystem& system, VectorXd& x) {
         if (!system.solver().try_factorize(system.matrix()))
             throw NumericalError("start relaxation: the matrix is not positive definite at node " +
                                  std::to_string(system.solver().breakdown().node) +
-                                 ". Check the material: k_uv² must not exceed k_uu k_vv");
+                                 ". Check the material: k_uv² must not exceed k_uu k_vv.");
         system.solver().solve(-g, dx);
         double after = energy(x + dx);
         for (int halving = 0; !(after <= before) && halving < 20; ++halving) {

@@ -313,6 +313,20 @@ TEST_CASE("clockwise faces are refused, an indefinite material stops the run wit
     CHECK_THAT(indefinite.errors, Contains("not positive definite") && Contains("k_uv"));
 }
 
+TEST_CASE("a pull beyond any cloth is never saved in silence: converged steps stop with exit code 3, the linearised one warns") {
+    const OutputFolder scratch("arcsim_overstretch");
+    const fs::path& dir = scratch.path();
+    for (const std::string method : {"backward_euler", "newton_euler", "bdf2"})
+        for (const std::string pull : {"-0.3", "-1e30", "-1e200"}) {
+            const fs::path scene = changed_scene("strip_iso", dir, {{"-0.004", pull}, {"\"gravity\"", "\"solver\": {\"method\": \"" + method + "\"}, \"gravity\""},
+                                                                    {"\"end_frame\": 5", "\"end_frame\": 2"}});
+            const Result r = run(scene.string() + " " + (dir / "out").string() + " --quiet", dir);
+            INFO(method << ' ' << pull << ' ' << r.errors);
+            CHECK(r.code == (method == "backward_euler" && pull == "-0.3" ? 0 : 3));
+            CHECK_THAT(r.errors, Contains("step ") && Contains("face ") && Contains("/solver/"));
+        }
+}
+
 TEST_CASE("what is not modelled is left out when asked, and harmless keys are named once") {
     const OutputFolder scratch("arcsim_ignored");
     const fs::path& dir = scratch.path();

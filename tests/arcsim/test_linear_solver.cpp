@@ -196,6 +196,8 @@ TEST_CASE("the mixed solver keeps double precision where a single-precision fact
         CHECK((mixed->solve(b) - x).norm() < 10 * reached + 1e-13 * x.norm());
         A.multiply(mixed->solve(b), r);
         CHECK((r - b).norm() < 1e-13 * b.norm());
+        // Whose square overflows: no iteration may take it for solved.
+        CHECK((1e-200 * mixed->solve(1e200 * b) - x).norm() < 10 * reached + 1e-13 * x.norm());
     }
 }
 
