@@ -1,6 +1,6 @@
 /// Panels of one mesh: counts, stretch of the converged flat patterns, seam length, alignment, time.
 ///
-///     bench_layout MESH.obj FIELD.txt [max_distortion [max_panels [min_width [DUMP.txt]]]]
+///     bench_layout MESH.obj FIELD.txt [max_distortion [max_panels [min_width [DUMP.txt]]]] [--symmetry detect|off]
 ///
 /// Prints one CSV line (with --header as the only argument: the header). DUMP.txt gets the cut mesh, panels
 /// and seams for plotting.
@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -60,21 +61,29 @@ double seam_drift_deg(const Segmentation& s) {
 }  // namespace
 
 int main(int argc, char** argv) try {
+    Symmetry symmetry = Symmetry::detect;
+    if (argc > 2 && std::string(argv[argc - 2]) == "--symmetry") {
+        symmetry = std::string(argv[argc - 1]) == "off" ? Symmetry::off : Symmetry::detect;
+        argc -= 2;
+    }
     if (argc < 3) {
         std::cout << "mesh,faces,max_distortion,panels,disks,within_5,p95_worst,p95_area,seam_m,drift_deg,min_angle_deg,"
-                     "violations,wall_s,peak_mb\n";
+                     "violations,wall_s,cpu_s,peak_mb\n";
         return 0;
     }
     const arcsim::ClothMesh mesh = arcsim::read_obj(argv[1]);
     const Surface s = mesh.surface();
     SegmentParams p;
+    p.symmetry = symmetry;
     if (argc > 3) p.max_distortion = std::stod(argv[3]);
     if (argc > 4) p.max_panels = std::stoi(argv[4]);
     if (argc > 5) p.min_width = std::stod(argv[5]);
     const auto data = read_field(argv[2]);
     const auto start = std::chrono::steady_clock::now();
+    const std::clock_t cpu_start = std::clock();
     const Segmentation r = segment(s, data, p);
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double cpu = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
 
     // Every panel laid flat, to convergence.
     int disks = 0;
@@ -107,7 +116,7 @@ int main(int argc, char** argv) try {
     const std::string path = argv[1];
     std::cout << path.substr(path.find_last_of('/') + 1) << ',' << s.n_faces() << ',' << p.max_distortion << ',' << r.n_panels
               << ',' << disks << ',' << within / area << ',' << worst << ',' << mean95 / area << ',' << seam_length << ','
-              << seam_drift_deg(r) << ',' << smallest_angle << ',' << r.violations.size() << ',' << wall << ','
+              << seam_drift_deg(r) << ',' << smallest_angle << ',' << r.violations.size() << ',' << wall << ',' << cpu << ','
               << static_cast<double>(usage.ru_maxrss) / 1024 << '\n';
     for (const std::string& v : r.violations) std::cerr << v << '\n';
     if (argc > 6) {
