@@ -11,12 +11,16 @@ using arcsim::PcgStatus;
 
 namespace {
 
-constexpr int pcg_limit = 60;            // beyond, a new factor is cheaper
-constexpr int pcg_refactor_next = 24;    // beyond, the next step gets a new factor
+constexpr int pcg_limit = 80;            // beyond, a new factor is cheaper
+constexpr int pcg_refactor_next = 32;    // beyond, the next step gets a new factor
 constexpr double fade_below = 1e-6;      // of T*: smaller regularisations are set to nothing
 constexpr double wake_at = 1e-4;         // of T*: the first one tried where the tangent is not definite
 constexpr double largest_step = 0.5;     // of the rest shape's half width per Newton step
-constexpr int most_halvings = 12;
+constexpr int most_trials = 12;          // of a step's length
+// A step ends where the pull along it is between these parts of the first one: among the kinks of a wrinkling fabric
+// steps that may overshoot by half run in circles for dozens of iterations.
+constexpr double least_pull = -0.1;
+constexpr double most_pull = 0.5;        // a full step may keep more
 constexpr int patience = 60;             // Newton steps without a new best residual
 constexpr double newton_is_trusted_at = 1e-2;   // relative residual; unsymmetric laws
 constexpr double residual_may_grow = 10;
@@ -180,17 +184,27 @@ SolveOutcome NewtonSolver::solve(VectorXd& x, double tolerance, double T0, const
         step = 1;
         VectorXd trial;
         StaticSystem::Balance there;
-        for (int halving = 0;; ++halving, step *= 0.5) {
+        double low = 0, high = 1, low_pull = slope, high_pull = 0;   // around the step at which the pull vanishes
+        for (int trials = 0;; ++trials) {
             trial = x + step * d_;
             there = system_.gradient(trial, trial_g_);
             const double pull = -d_.dot(trial_g_);
-            const bool pulls = std::isfinite(pull) && pull >= -0.5 * slope;
-            if (!by_residual && pulls) break;
+            const bool pulls = std::isfinite(pull) && pull >= (by_residual ? -0.5 : least_pull) * slope;
+            if (!by_residual && pulls && (step == 1 || pull <= most_pull * slope)) break;
             // A full step may meet a kink of the table and still be a good one; shorter ones have to gain. Where the fabric
             // pulls forward, its pull judges as well: the residual alone gets caught among kinks.
-            if (by_residual && there.residual < (halving == 0 ? 2 : 1) * now.residual) break;
+            if (by_residual && there.residual < (trials == 0 ? 2 : 1) * now.residual) break;
             if (by_residual && pulls && slope > 0 && there.residual < residual_may_grow * now.residual) break;
-            if (halving == most_halvings) break;
+            if (trials == most_trials) break;
+            if (by_residual || !std::isfinite(pull)) {
+                high = step;
+                step *= 0.5;
+                continue;
+            }
+            if (pull > 0) low = step, low_pull = pull;
+            else high = step, high_pull = pull;
+            const double zero = (low * high_pull - high * low_pull) / (high_pull - low_pull), margin = 0.1 * (high - low);
+            step = std::clamp(zero, low + margin, high - margin);
         }
         slow = there.residual > 0.5 * now.residual ? slow + 1 : 0;
         x = trial;

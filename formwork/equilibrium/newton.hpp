@@ -22,7 +22,7 @@ namespace formwork {
 ///     too many iterations or meet negative curvature;
 ///     A law that is strongly unsymmetric gets GMRES with the whole tangent on a factor of its definite part (with the
 ///     symmetric half alone a woven sock takes hundreds of steps), and LU where that fails;
-///   - a step is halved until the force along it no longer pulls back by more than half: no energy is needed, so laws
+///   - a step is shortened, by false position, until the force along it has nearly vanished: no energy is needed, so laws
 ///     without potential are welcome.
 class NewtonSolver final : public EquilibriumMethod {
 public:

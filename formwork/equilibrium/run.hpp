@@ -41,6 +41,7 @@ private:
     bool approach_from_full(double tolerance, double prestress);
     void lower_prestress(const Goal& goal);
     void estimate_effect();
+    void estimate_from(const Extent& before, double less);
     void estimate_from_above();
     void set_effect(const Extent& here, const Extent& change);
     Regulariser regulariser(double prestress) const;

@@ -12,7 +12,6 @@ constexpr double prestress_part = 0.01;        // Tp = 0.01 T* (tension_field.md
 constexpr double residual_part = 0.5;
 constexpr double wrinkles_known_at = 1e-3;     // residual at which the wrinkled region is settled enough to judge
 constexpr int most_rounds = 6;
-constexpr double nested_start = 0.01;          // T0 of T*: what is carried over from a coarse mesh is rough where it wrinkles
 
 }  // namespace
 
@@ -27,7 +26,7 @@ void Run::solve_tension_field(const Goal& goal) {
     const Regulariser first = regulariser(part * T);
     system_.membrane().law().set_regulariser(first);
     const double rough = std::max(wrinkles_known_at, goal.tolerance);
-    outcome_ = solve_with_level(rough, from_coarse_ ? nested_start * T : T, "prestressed");
+    outcome_ = solve_with_level(rough, T, "prestressed");   // what is carried over from a coarse mesh is rough where it wrinkles
     if (!outcome_.ok() && from_coarse_) {
         start_afresh();
         outcome_ = solve_with_level(rough, T, "prestressed");
@@ -104,6 +103,16 @@ void Run::set_effect(const Extent& here, const Extent& change) {
     regularisation_.volume_effect = std::abs(change.volume) / std::max(std::abs(here.volume), 1e-300);
 }
 
+/// From the two equilibria at Tp and at Tp / less: where the lowest point lies among wrinkles, the slope at one of them
+/// alone was off by a factor of four.
+void Run::estimate_from(const Extent& before, double less) {
+    const Regulariser r = system_.membrane().law().regulariser();
+    const Extent here = measure_extent(system_, x_);
+    regularisation_ = {r.Tp, r.r, 0, 0, here.depth, here.volume};
+    const double left = less / (1 - less);
+    set_effect(here, {left * (here.depth - before.depth), left * (here.volume - before.volume)});
+}
+
 /// The effect of Tp from the equilibrium at 2 Tp, for meshes that find none below Tp; x_ stays.
 void Run::estimate_from_above() {
     MembraneLaw& law = system_.membrane().law();
@@ -136,11 +145,12 @@ void Run::lower_prestress(const Goal& goal) {
         const VectorXd good = x_;
         const SolveOutcome good_outcome = outcome_;
         const Regularisation good_estimate = regularisation_;
+        const Extent before = measure_extent(system_, x_);
         law.set_regulariser({less * now.r, less * now.Tp});
         method_->allow_iterations(p_.solver.max_iterations);
         outcome_ = solve_with_level(goal.tolerance, 0, "prestress " + short_number(less * now.Tp));
         if (outcome_.ok()) {
-            estimate_effect();
+            estimate_from(before, less);
             continue;
         }
         // Too far at once, or less prestress than this mesh needs to be well posed: back to the last good one.
