@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 
-
 namespace formwork {
 namespace {
 
@@ -34,24 +33,21 @@ CoarseProblem coarse_problem(const EquilibriumProblem& p, const StaticSystem& sy
     CoarseProblem c;
     c.mesh = coarsen(p.rest, system.fixed().flags(), p.rest.n_nodes() / 4);
     EquilibriumProblem& q = c.problem;
+    q = p;
     q.rest = c.mesh.surface;
+    q.flat.clear();
     if (!p.flat.empty() || p.material.model != FabricModel::isotropic) q.flat = coarse_flat(p, c.mesh);
-    for (int i : c.mesh.fine_node)
+    q.fixed.clear();
+    q.start.clear();
+    for (int i : c.mesh.fine_node) {
         for (int k = 0; k < 3; ++k) q.fixed.push_back(system.fixed().flags()[3 * i + k]);
-    q.up = p.up;
-    q.plaster = p.plaster;
+        if (!p.start.empty()) q.start.push_back(p.start[i]);
+    }
     if (system.has_liquid()) {
         q.plaster.fill = FillParams{};
         if (system.level_is_unknown()) q.plaster.fill->volume = system.target_volume();
         else q.plaster.fill->level = system.pressure().level();
     }
-    q.pressure = p.pressure;
-    q.pressure_jacobian = p.pressure_jacobian;
-    q.material = p.material;
-    q.fabric_density = p.fabric_density;
-    q.self_weight = p.self_weight;
-    q.solver = p.solver;
-    q.on_iteration = p.on_iteration;
     return c;
 }
 
@@ -60,8 +56,9 @@ VectorXd fine_positions(const EquilibriumProblem& p, const CoarseProblem& coarse
     std::vector<Vector3d> u = unflatten(coarse_x);
     for (std::size_t i = 0; i < u.size(); ++i) u[i] -= coarse.mesh.surface.x[i];
     VectorXd x = flatten(p.rest.x) + flatten(prolong(coarse.mesh, u, p.rest, interpolation));
+    const std::vector<Vector3d>& start = p.start.empty() ? p.rest.x : p.start;
     for (std::size_t d = 0; d < p.fixed.size(); ++d)
-        if (p.fixed[d]) x[static_cast<Eigen::Index>(d)] = p.rest.x[d / 3][static_cast<Eigen::Index>(d % 3)];
+        if (p.fixed[d]) x[static_cast<Eigen::Index>(d)] = start[d / 3][static_cast<Eigen::Index>(d % 3)];
     return x;
 }
 

@@ -1,3 +1,5 @@
+#include <malloc.h>
+
 #include <chrono>
 #include <cmath>
 #include <sstream>
@@ -108,7 +110,7 @@ void Run::leave_trivial_branch() {
 
 bool Run::start_from_coarse_mesh() {
     const int n = p_.rest.n_nodes();
-    if (!is_newton() || !p_.solver.nested || !p_.start.empty() || !p_.seams.empty() || n < nested_from || !system_.has_load()) return false;
+    if (!is_newton() || !p_.solver.nested || !p_.seams.empty() || n < nested_from || !system_.has_load()) return false;
     const double start = arcsim::cpu_seconds();
     bool found = false;
     try {
@@ -129,6 +131,7 @@ bool Run::start_from_coarse_mesh() {
     } catch (const arcsim::NumericalError&) {   // the fine mesh may still do, and words its own failure
     } catch (const arcsim::InputError&) {       // a coarse face without area
     }
+    malloc_trim(0);   // what the coarser meshes took goes back, or the finest one's peak would stand on top of it
     coarse_s_ += arcsim::cpu_seconds() - start;
     return found;
 }

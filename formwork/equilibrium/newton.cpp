@@ -179,7 +179,7 @@ SolveOutcome NewtonSolver::solve(VectorXd& x, double tolerance, double T0, const
         Stopwatch watch(times_.line_search);
         const double longest = d_.lpNorm<Eigen::Infinity>();
         if (longest > longest_allowed) d_ *= longest_allowed / longest;
-        // Along d the fabric pulls forward at first (slope > 0); a step may overshoot until it pulls back by half.
+        // Along d the fabric pulls forward at first (slope > 0).
         const double slope = -d_.dot(g_);
         step = 1;
         VectorXd trial;
