@@ -181,6 +181,7 @@ SolveOutcome NewtonSolver::solve(VectorXd& x, double tolerance, double T0, const
         if (longest > longest_allowed) d_ *= longest_allowed / longest;
         // Along d the fabric pulls forward at first (slope > 0).
         const double slope = -d_.dot(g_);
+        const bool halves = H_.is_general();   // a law without potential has no least energy along d
         step = 1;
         VectorXd trial;
         StaticSystem::Balance there;
@@ -189,14 +190,14 @@ SolveOutcome NewtonSolver::solve(VectorXd& x, double tolerance, double T0, const
             trial = x + step * d_;
             there = system_.gradient(trial, trial_g_);
             const double pull = -d_.dot(trial_g_);
-            const bool pulls = std::isfinite(pull) && pull >= (by_residual ? -0.5 : least_pull) * slope;
-            if (!by_residual && pulls && (step == 1 || pull <= most_pull * slope)) break;
+            const bool pulls = std::isfinite(pull) && pull >= (halves ? -0.5 : least_pull) * slope;
+            if (!by_residual && pulls && (halves || step == 1 || pull <= most_pull * slope)) break;
             // A full step may meet a kink of the table and still be a good one; shorter ones have to gain. Where the fabric
             // pulls forward, its pull judges as well: the residual alone gets caught among kinks.
             if (by_residual && there.residual < (trials == 0 ? 2 : 1) * now.residual) break;
             if (by_residual && pulls && slope > 0 && there.residual < residual_may_grow * now.residual) break;
             if (trials == most_trials) break;
-            if (by_residual || !std::isfinite(pull)) {
+            if (halves || !std::isfinite(pull)) {
                 high = step;
                 step *= 0.5;
                 continue;
