@@ -169,6 +169,38 @@ TEST_CASE("a step that fails is halved, and one that cannot succeed leaves the s
     CHECK(s.x == before.x);
 }
 
+TEST_CASE("a sheet that is pressed together in one step buckles in parts of it, and stays whole") {
+    for (const StepMethod method : {StepMethod::newton_euler, StepMethod::bdf2}) {
+        const Patch patch;
+        State s = patch.states().at("rest");
+        for (int i = 0; i < s.x.size(); i += 3) s.x[i + 2] = 1e-5 * std::sin(700 * s.x[i + 1]);
+        ClothModel model = patch_model(patch, woven_rows(), s.x);
+        const VectorXd start = s.x;
+        const auto stepper = make_stepper(model, params_of(method));
+        int parts = 0;
+        stepper->place_handles = [&](double time) {   // the upper edge moves down, in the plane
+            ++parts;
+            model.held.clear();
+            for (int k : {0, 1, 2, 3, 12, 13, 14, 15}) {
+                Vector3d goal = start.segment<3>(3 * k);
+                if (k >= 12) goal.y() *= 1 - 0.3 * time;
+                model.held.push_back({k, goal});
+            }
+        };
+        s.time = 1;
+        const StepResult result = stepper->step(s, 1.0);
+        INFO("method " << static_cast<int>(method) << ", parts " << parts << ", halvings " << result.halvings);
+        CHECK(result.halvings > 0);
+        CHECK(parts > result.halvings);
+        CHECK(s.time == 1);
+        CHECK(s.x[3 * 12 + 1] == 0.7 * start[3 * 12 + 1]);
+        CHECK(model.stretch->largest_stretch(s.x).second < 7.0 / 6);   // inside the table
+        double height = 0;
+        for (int i = 2; i < s.x.size(); i += 3) height = std::max(height, std::abs(s.x[i]));
+        CHECK(height > 1e-3);
+    }
+}
+
 TEST_CASE("numbers that are not finite are found, never stored") {
     for (const StepMethod method : all_methods) {
         const Patch patch;
