@@ -64,6 +64,7 @@ struct PanelParams {
     WarpAlong warp = WarpAlong::largest_stretch;
     std::array<double, 2> compensation{0, 0};   // percent that a piece is cut smaller, along warp and weft
     bool stretch_compensation = false;
+    int recut = 0;
     double notch_spacing_mm = 100, notch_length_mm = 4;
     double max_distortion = 0.3, max_seam_mismatch = 0.002;
     double peak_weight = 20;
@@ -89,6 +90,9 @@ void visit(Archive& a, PanelParams& p) {
                "Shrinkage of the pieces along warp and weft, so that the tightened cloth has the designed size.");
     a.optional("stretch_compensation", p.stretch_compensation,
                "Cut every face smaller by its simulated stretch, so that the filled bag has the size of the surface that is cut.");
+    a.optional("recut", p.recut, "1", between(0, 9),
+               "How often the panels are cut again, from the shape that the bag sewn of them takes: surplus cloth that would fold and shear "
+               "goes, at the price of a shape that departs from the designed one a little more.");
     a.optional("notch_spacing_mm", p.notch_spacing_mm, "mm", between(10, 1000), "Largest distance between notches of a seam.");
     a.optional("notch_length_mm", p.notch_length_mm, "mm", between(1, 20), "Depth of a notch from the cut edge.");
     a.optional("peak_weight", p.peak_weight, "1", between(0, 1000),

@@ -114,7 +114,7 @@ SewResult sew_bag(const SewInput& input, const SewParams& params,
                                        [&](const SeamSpring& e) { return is_shorter(e, result.equilibrium.x); });
     result.shorter_seam_edges = static_cast<int>(shorter) / (params.seams == SeamModel::stitch ? 2 : 1);
     const Surface shape{result.equilibrium.x, result.bag.cut.faces};
-    const SurfaceDistance cut(s.mesh);
+    const SurfaceDistance cut(input.designed ? *input.designed : s.mesh);
     result.from_cut = deviation(shape, cut);
     result.from_inflated = deviation(shape, SurfaceDistance(Surface{result.bag.inflated, result.bag.cut.faces}));
     if (input.target) result.from_target = deviation(shape, SurfaceDistance(*input.target));

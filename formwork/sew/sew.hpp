@@ -34,7 +34,7 @@ struct SewResult {
     double seam_max_compression_N = 0;   // with thread_compression full; 0 or above
     double seam_max_line_load_N_per_m = 0;
     double seam_gap_max_m = 0;
-    Deviation from_cut;                  // against the surface that was cut
+    Deviation from_cut;                  // against the surface that was cut; SewInput::designed where there is one
     Deviation from_inflated;             // against the isotropic prediction, whose fabric is another one
     std::optional<Deviation> from_target;
     std::vector<GrainVariant> compare;

@@ -22,6 +22,7 @@ struct SewInput {
     std::optional<double> inflated_level;       // m: fills given by level or depth keep this level ...
     std::optional<double> inflated_volume;      // m³: ... those given by volume or fraction this volume
     std::optional<Surface> target;              // the shape that the cast should have
+    const Surface* designed = nullptr;          // the cast is compared with it; null: with the surface that is cut
 };
 
 /// One edge of a seam: where thread and panels meet.

@@ -2,7 +2,9 @@
 
 #include "arcsim/base/text.hpp"
 #include "formwork/panels/pattern_files.hpp"
+#include "formwork/sew/recut.hpp"
 #include "formwork/stages/segmentation_file.hpp"
+#include "formwork/stages/sew_data.hpp"
 #include "formwork/stages/stage.hpp"
 #include "formwork/stages/summary.hpp"
 
@@ -33,12 +35,32 @@ JsonValue summary_of(const PanelSet& set, const PatternFiles& files, double wall
 
 }  // namespace
 
+namespace {
+
+/// Panels of the scene's layout, cut as often as it asks; the layout's nodes move to the shape that was cut last.
+PanelSet cut_as_asked(const StageContext& context, Segmentation& s) {
+    const FormworkParams& f = context.scene.formwork;
+    if (f.panels.recut == 0) return make_panels(s, f.panels);
+    if (!f.sew)
+        throw arcsim::InputError("/formwork/panels/recut: the panels are cut again from the sewn bag, but the scene has no \"sew\" object. Add one, or set "
+                                 "recut to 0.");
+    const SewData data = read_sew_data(context);
+    const auto show = [&](int round, const IterationReport& step) {
+        context.progress.update({step.iteration, step.residual, f.sew->solver.tolerance, {}, "sewn bag " + std::to_string(round) + ", " + step.phase});
+    };
+    return recut_panels(s, f.panels, *f.sew, [&](const Segmentation& cut, const std::vector<FlatPanel>& panels) {
+        return data.input(context.scene, cut, panels);
+    }, show);
+}
+
+}  // namespace
+
 JsonValue run_panels(const StageContext& context) {
     const auto start = std::chrono::steady_clock::now();
-    const Segmentation s = read_segmentation(context.dir / "segment");
+    Segmentation s = read_segmentation(context.dir / "segment");
     context.progress.update({});
     const FormworkScene& scene = context.scene;
-    const PanelSet set = make_panels(s, scene.formwork.panels);
+    const PanelSet set = cut_as_asked(context, s);
     PatternInfo info;
     info.name = scene.name();
     info.up = scene.formwork.up;

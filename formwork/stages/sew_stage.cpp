@@ -5,10 +5,10 @@
 #include "formwork/sew/sew.hpp"
 #include "formwork/stages/equilibrium_summary.hpp"
 #include "formwork/stages/segmentation_file.hpp"
+#include "formwork/stages/sew_data.hpp"
 #include "formwork/stages/sew_files.hpp"
 #include "formwork/stages/stage.hpp"
 #include "formwork/stages/strain_file.hpp"
-#include "formwork/stages/summary.hpp"
 
 namespace formwork {
 
@@ -16,14 +16,6 @@ using arcsim::format_short;
 using arcsim::JsonValue;
 
 namespace {
-
-std::optional<double> inflated_figure(const std::filesystem::path& dir, const char* key) {
-    const JsonValue summary = read_summary(dir);
-    const JsonValue* inflate = summary.find("inflate");
-    const JsonValue* figure = inflate ? inflate->find(key) : nullptr;
-    if (!figure || figure->kind != arcsim::JsonKind::number) return std::nullopt;
-    return figure->number;
-}
 
 std::optional<Surface> target_shape(const FormworkScene& scene) {
     const std::optional<arcsim::InputFile>& file = scene.formwork.sew->target;
@@ -38,24 +30,16 @@ std::optional<Surface> target_shape(const FormworkScene& scene) {
 JsonValue run_sew(const StageContext& context) {
     const FormworkScene& scene = context.scene;
     const SewParams& p = *scene.formwork.sew;
-    const BagMesh mesh = load_bag_mesh(scene);
-    const Segmentation s = read_segmentation(context.dir / "segment");
+    const SewData data = read_sew_data(context);
+    const Segmentation designed = read_segmentation(context.dir / "segment");
+    Segmentation s = designed;
+    s.mesh.x = arcsim::read_obj(context.dir / "panels" / "sewn_rest.obj").x;   // where the panels were cut from
+    if (s.mesh.x.size() != designed.mesh.x.size())
+        throw arcsim::InputError((context.dir / "panels/sewn_rest.obj").string() + ": belongs to another layout. Run the stage panels again.");
     const PanelSet set = read_panels(context.dir / "panels" / "sewn_rest.obj", s);
-    const std::vector<Vector3d> inflated = arcsim::read_obj(context.dir / "inflate" / "inflated.obj").x;
-    if (inflated.size() != mesh.surface.x.size())
-        throw arcsim::InputError((context.dir / "inflate/inflated.obj").string() +
-                                 ": belongs to another mesh than the scene's. Run the stage inflate again.");
-    const std::vector<char> held = held_dofs(scene, mesh);
-    const SewInput input{s,
-                         set.panels,
-                         mesh.surface.faces,
-                         inflated,
-                         held,
-                         scene.formwork.up,
-                         scene.plaster(),
-                         inflated_figure(context.dir, "fill_level_m"),
-                         inflated_figure(context.dir, "volume_m3"),
-                         target_shape(scene)};
+    SewInput input = data.input(scene, s, set.panels);
+    input.target = target_shape(scene);
+    input.designed = &designed.mesh;
     const auto show = [&](const std::string& name, const IterationReport& step) {
         context.progress.update({step.iteration, step.residual, p.solver.tolerance, {},
                                  (name == "sew" ? "" : name + ", ") + step.phase + ", max stretch " + format_short(step.max_stretch)});

@@ -111,6 +111,32 @@ inline Segmentation sphere_in_octants(int n, double radius) {
     return cut_by_labels(s, label);
 }
 
+/// A closed sphere from a cube, each of whose six sides is cut into four: 24 pieces, 48 seams.
+inline Segmentation sphere_in_24(int n, double radius) {
+    Surface s;
+    std::vector<int> label;
+    std::map<std::array<int, 3>, int> known;
+    const auto node = [&](const std::array<int, 3>& p) {
+        const auto [it, fresh] = known.try_emplace(p, s.n_nodes());
+        if (fresh) s.x.push_back(radius * Vector3d(std::tan(M_PI / 4 * p[0] / n), std::tan(M_PI / 4 * p[1] / n), std::tan(M_PI / 4 * p[2] / n)).normalized());
+        return it->second;
+    };
+    for (int axis = 0; axis < 3; ++axis)
+        for (int sign : {-1, 1})
+            for (int i = -n; i < n; ++i)
+                for (int j = -n; j < n; ++j) {
+                    const auto at = [&](int a, int b) {
+                        std::array<int, 3> p{};
+                        p[axis] = sign * n, p[(axis + 1) % 3] = sign > 0 ? a : b, p[(axis + 2) % 3] = sign > 0 ? b : a;
+                        return node(p);
+                    };
+                    s.faces.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+                    s.faces.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+                    label.insert(label.end(), 2, 4 * (2 * axis + (sign > 0)) + 2 * (i >= 0) + (j >= 0));
+                }
+    return cut_by_labels(s, label);
+}
+
 /// A tube around z, open at both ends, its radius a function of the height share; cut into strips along the
 /// given shares of the circumference (ascending, first one 0). The weave follows the axis.
 inline Segmentation tube_in_strips(int around, int along, double height, const std::function<double(double)>& radius,

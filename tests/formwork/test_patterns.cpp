@@ -26,6 +26,7 @@ TEST_CASE("patterns are written where PATTERN_FOLDER says", "[.write-patterns]")
         CHECK(files.utilisation > 0.1);
     };
     write("sphere", cut_surfaces::sphere_in_octants(16, 0.15), {});
+    write("pieces24", cut_surfaces::sphere_in_24(5, 0.15), {});
     PanelParams column;
     column.allowances = {{1, 15}};
     column.paper = Paper::a3;

@@ -2,9 +2,11 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "arcsim/base/error.hpp"
 #include "arcsim/mesh/obj_io.hpp"
+#include "formwork/panels/notches.hpp"
 #include "formwork/panels/pattern_files.hpp"
 #include "formwork/panels/sewing_order.hpp"
 #include "formwork/panels/sewn_rest.hpp"
@@ -53,6 +55,25 @@ TEST_CASE("a closed bag is sewn so that its highest seam comes last and every st
         for (const SewingStep& step : order) joins += step.kind == StepKind::join;
         CHECK(joins == 7);   // a tree over eight pieces
     }
+}
+
+TEST_CASE("of 24 pieces of a closed bag none has to be sewn inside it: 23 joins, a way out at each step, the opening last") {
+    const Segmentation s = cut_surfaces::sphere_in_24(3, 0.3);
+    const PanelSet set = make_panels(s, {});
+    const std::vector<SewingStep> order = sewing_order(set, s, {0, 0, 1});
+    REQUIRE(order.size() == 48);
+    CHECK(order.back().kind == StepKind::opening);
+    CHECK(order.back().open_before < 1e-9);   // nothing else is open: it is what the bag is turned out through
+    int joins = 0;
+    for (std::size_t k = 0; k + 1 < order.size(); ++k) {
+        CHECK(order[k].open_before > 0.1);
+        joins += order[k].kind == StepKind::join;
+    }
+    CHECK(joins == 23);
+    std::set<std::string> names, styles;
+    for (std::size_t i = 0; i < set.seams.size(); ++i) names.insert(seam_name(set, static_cast<int>(i))), styles.insert(notch_words(notch_style(set.seams[i].style)));
+    CHECK(names.size() == 48);
+    CHECK(styles.size() == 48);
 }
 
 TEST_CASE("an open bag is closed first and hemmed last, once around each rim, the lower before the upper") {

@@ -7,7 +7,10 @@
 
 using namespace formwork;
 
-SewnSock::SewnSock(double radius, double height, int rings) : bag(shapes::sock(radius, height, rings)) {
+namespace {
+
+/// Four quarters of the wall and the bottom.
+std::vector<int> sock_labels(const shapes::Bag& bag, double height) {
     std::vector<int> label;
     for (int f = 0; f < bag.surface.n_faces(); ++f) {
         const Vector3d c = arcsim::face_centroid(bag.surface, f);
@@ -15,15 +18,25 @@ SewnSock::SewnSock(double radius, double height, int rings) : bag(shapes::sock(r
         const double turn = (std::atan2(c[1], c[0]) + std::numbers::pi) / (2 * std::numbers::pi);
         label.push_back(is_bottom ? 4 : std::min(3, static_cast<int>(4 * turn)));
     }
+    return label;
+}
+
+}  // namespace
+
+SewnSock::SewnSock(double radius, double height, int rings)
+    : SewnSock(shapes::sock(radius, height, rings), sock_labels(shapes::sock(radius, height, rings), height)) {}
+
+SewnSock::SewnSock(shapes::Bag of, const std::vector<int>& label) : bag(std::move(of)) {
     cut = cut_surfaces::cut_by_labels(bag.surface, label);
     for (int f = 0; f < cut.mesh.n_faces(); ++f)
         for (int k = 0; k < 3; ++k) {
             cut.source[cut.mesh.faces[f][k]] = {f, {0, 0, 0}};
             cut.source[cut.mesh.faces[f][k]].barycentric[k] = 1;
         }
+    constexpr double faces_down = 1 - 1e-9;   // cosine
     for (int f = 0; f < cut.mesh.n_faces(); ++f) {
         const arcsim::FaceFrame frame = arcsim::face_frame(cut.mesh, f);
-        const Vector3d along = label[f] == 4 ? Vector3d::UnitX() : Vector3d::UnitZ();
+        const Vector3d along = std::abs(arcsim::face_normal(cut.mesh, f).z()) > faces_down ? Vector3d::UnitX() : Vector3d::UnitZ();
         cut.direction[f] = {frame.angle(along), 1.1, 1.0, 1.0};
         cut.field_theta[f] = cut.direction[f].theta;
     }

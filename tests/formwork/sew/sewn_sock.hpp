@@ -12,6 +12,8 @@ struct SewnSock {
     std::vector<formwork::FlatPanel> panels;
 
     SewnSock(double radius, double height, int rings);
+    /// Another bag, cut by labels; the warp runs up where it can, along x in faces that face down.
+    SewnSock(shapes::Bag bag, const std::vector<int>& label);
     /// `inflated` starts as the rest shape.
     formwork::SewInput input(double level) const;
     static formwork::SewParams params();
