@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <optional>
 
@@ -88,7 +89,13 @@ Layout polished(const LayoutJob& job, const CutMesh& cut, int max_panels, std::v
     }
 }
 
-Layout free_layout(const LayoutJob& job, const Base& base) {
+/// A layout as it was searched for, and what was compared on the way.
+struct Found {
+    Layout layout;
+    std::vector<CandidateCurve> candidates;
+};
+
+Found free_layout(const LayoutJob& job, const Base& base) {
     Layout layout = layout_on(job, uncut(job, base.mesh), job.params.max_panels, Stage::search);
     for (std::size_t i = 0; i < job.strokes.size(); ++i)
         if (!layout.add_curve(stroke_curve(layout, job.strokes[i], static_cast<int>(i)), true))
@@ -96,12 +103,12 @@ Layout free_layout(const LayoutJob& job, const Base& base) {
     layout.search();
     layout.rework(Rework::all);
     std::vector<int> singular = singular_nodes(job, layout.cut().surface());
-    return polished(job, layout.cut(), job.params.max_panels, singular, Rework::all);
+    return {polished(job, layout.cut(), job.params.max_panels, singular, Rework::all), layout.candidates()};
 }
 
 /// The layout of the part on one side of all planes, and its mirror images; nothing when they do not fit.
 /// @param what  is laid out anew: a first look does without what only looks bad
-std::optional<Layout> mirrored_layout(const LayoutJob& job, const Base& base, const std::vector<MirrorPlane>& planes, Rework what) {
+std::optional<Found> mirrored_layout(const LayoutJob& job, const Base& base, const std::vector<MirrorPlane>& planes, Rework what) {
     MeshOnInput settled = base.mesh;
     for (const MirrorPlane& plane : planes) settle_on_plane(settled, base.topology, plane, job.s, job.topology);
     const int max_panels = std::max(1, job.params.max_panels >> planes.size());
@@ -118,6 +125,7 @@ std::optional<Layout> mirrored_layout(const LayoutJob& job, const Base& base, co
     if (part.n_panels() == 0) return {};
     part.search();
     part.rework(what);
+    std::vector<CandidateCurve> candidates = part.candidates();
     std::vector<int> singular = singular_nodes(job, part.cut().surface());
     part = polished(job, part.cut(), max_panels, singular, what, planes);
     MirroredMesh whole = mirror_part(part.cut(), part.kept_faces(), job.s, job.topology, planes);
@@ -126,7 +134,12 @@ std::optional<Layout> mirrored_layout(const LayoutJob& job, const Base& base, co
     for (const auto& [a, b] : whole.seams) cut.mark_seam(a, b);
     Layout layout = layout_on(job, std::move(cut), job.params.max_panels, Stage::polish);
     for (const std::vector<int>& image : whole.face_image) layout.merge_images(image);
-    return layout;
+    for (const MirrorPlane& plane : planes)
+        for (std::size_t i = 0, n = candidates.size(); i < n; ++i) {
+            candidates.push_back(candidates[i]);
+            for (Vector3d& x : candidates.back().points) x = plane.mirror(x);
+        }
+    return Found{std::move(layout), std::move(candidates)};
 }
 
 /// Two planes at right angles, when there are such, and the best plane alone.
@@ -153,31 +166,32 @@ Layout judged(const LayoutJob& job, const CutMesh& cut) {
 }
 
 /// The cheapest of a free layout and those that keep mirror planes. A symmetric bag is worth some panels.
-CutMesh best_layout(const LayoutJob& job, const Base& base) {
+Found best_layout(const LayoutJob& job, const Base& base) {
     constexpr double worth_of_symmetry = 2;      // times the free layout's cost
     constexpr double worth_of_two_planes = 1.4;  // times that of one plane: each pattern is cut four times instead of twice
-    std::optional<Layout> best;
+    std::optional<Found> best;
     double most = std::numeric_limits<double>::infinity();   // that another layout may cost to be taken
     const auto offer = [&](const std::vector<MirrorPlane>& planes, Rework what) {
-        const auto found = mirrored_layout(job, base, planes, what);
+        auto found = mirrored_layout(job, base, planes, what);
         if (!found) return false;
-        Layout layout = judged(job, found->cut());
+        Layout layout = judged(job, found->layout.cut());
         if (layout.n_panels() < 2 || layout.cost() >= most) return false;
         most = layout.cost() / (planes.size() > 1 && layout.keeps_bounds() ? worth_of_two_planes : 1);
-        best.emplace(std::move(layout));
+        best.emplace(Found{std::move(layout), std::move(found->candidates)});
         return true;
     };
     for (const auto& planes : plane_sets(job)) {   // after a first one that keeps the bounds, another must win at first look
-        const bool is_second = best && best->keeps_bounds();
+        const bool is_second = best && best->layout.keeps_bounds();
         if (offer(planes, is_second ? Rework::out_of_bounds : Rework::all) && is_second) offer(planes, Rework::all);
     }
-    if (best && best->keeps_bounds()) return best->cut();
-    Layout free = judged(job, free_layout(job, base).cut());
-    return best && best->cost() < worth_of_symmetry * free.cost() ? best->cut() : free.cut();
+    if (best && best->layout.keeps_bounds()) return std::move(*best);
+    Found free = free_layout(job, base);
+    free.layout = judged(job, free.layout.cut());
+    return best && best->layout.cost() < worth_of_symmetry * free.layout.cost() ? std::move(*best) : std::move(free);
 }
 
 /// Everything that the next stages ask for of a mended cut mesh.
-Segmentation hand_over(const LayoutJob& job, const CutMesh& cut) {
+Segmentation hand_over(const LayoutJob& job, const CutMesh& cut, std::vector<CandidateCurve> candidates) {
     const std::vector<int> singular = singular_nodes(job, cut.surface());
     Layout layout = layout_on(job, cut, job.params.max_panels, Stage::verdict);
     Segmentation r;
@@ -193,19 +207,34 @@ Segmentation hand_over(const LayoutJob& job, const CutMesh& cut) {
     r.field_theta = std::move(on_cut.theta);
     r.direction = std::move(on_cut.data);
     r.violations = layout.violations();
+    r.candidates = std::move(candidates);
     return r;
 }
 
 }  // namespace
 
+SplitRules split_rules(const SegmentParams& params) {
+    SplitRules rules;
+    rules.drift = {params.drift_penalty, params.max_angle_deg * std::numbers::pi / 180};
+    rules.min_width = params.min_width;
+    rules.max_distortion = params.max_distortion;
+    return rules;
+}
+
+Segmentation mend_and_hand_over(const LayoutJob& job, const CutMesh& cut, std::vector<CandidateCurve> candidates) {
+    return hand_over(job, judged(job, cut).cut(), std::move(candidates));
+}
+
 Segmentation lay_out(const LayoutJob& job) {
     const Base base = base_mesh(job);
-    const CutMesh found = best_layout(job, base);
-    if (!base.is_coarse) return hand_over(job, found);
+    Found found = best_layout(job, base);
+    if (!base.is_coarse) return hand_over(job, found.layout.cut(), std::move(found.candidates));
     int n = 0;
-    const std::vector<int> panel = label_panels(found, n);
-    if (auto cut = transfer_seams(found, panel, n, job.s, job.topology)) return hand_over(job, judged(job, *cut).cut());
-    return hand_over(job, best_layout(job, whole_mesh(job)));   // panels too narrow for the coarse mesh
+    const std::vector<int> panel = label_panels(found.layout.cut(), n);
+    if (auto cut = transfer_seams(found.layout.cut(), panel, n, job.s, job.topology))
+        return mend_and_hand_over(job, *cut, std::move(found.candidates));
+    found = best_layout(job, whole_mesh(job));   // panels too narrow for the coarse mesh
+    return hand_over(job, found.layout.cut(), std::move(found.candidates));
 }
 
 }  // namespace formwork

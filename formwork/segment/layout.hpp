@@ -49,6 +49,8 @@ public:
     /// Removes seams between panels and their mirror images where that keeps the bounds.
     void merge_images(const std::vector<int>& face_image);
 
+    /// Every curve that was compared when search() split a panel.
+    const std::vector<CandidateCurve>& candidates() const { return candidates_; }
     const CutMesh& cut() const { return cut_; }
     CutMesh& cut() { return cut_; }
     /// The field on the faces of a mesh that lies on the input.
@@ -82,7 +84,8 @@ private:
         double excess = 0;         // of the pieces together
         bool is_allowed = false;   // disks with few corners
     };
-    std::vector<Trial> try_splits(const PanelPatch& patch, const PanelQuality& q, SplitRules rules, int count) const;
+    std::vector<Trial> try_splits(const PanelPatch& patch, const PanelQuality& q, SplitRules rules, int count,
+                                  std::vector<CandidateCurve>* all = nullptr) const;
     void measure_flat(Trial& trial) const;
     bool refine(int most_panels);
     bool split(int panel, bool anyhow);
@@ -117,6 +120,8 @@ private:
     const std::vector<DirectionData>* data_;
     std::vector<int> panel_;                    // per face of the cut mesh
     std::vector<Panel> panels_;
+    std::vector<CandidateCurve> candidates_;
+    bool keeps_candidates_ = false;
 };
 
 }  // namespace formwork

@@ -7,10 +7,11 @@
 
 namespace formwork {
 
-std::vector<Layout::Trial> Layout::try_splits(const PanelPatch& patch, const PanelQuality& q, SplitRules rules, int count) const {
+std::vector<Layout::Trial> Layout::try_splits(const PanelPatch& patch, const PanelQuality& q, SplitRules rules, int count,
+                                              std::vector<CandidateCurve>* all) const {
     std::vector<Trial> trials;
     rules.calibration = calibration_of(q);
-    for (const Split& split : best_splits(patch, field_on(patch), rules, count)) {
+    for (const Split& split : best_splits(patch, field_on(patch), rules, count, all)) {
         Trial trial;
         trial.curve = split.curve;
         trial.length = split.length;
@@ -55,7 +56,7 @@ bool Layout::split(int panel, bool anyhow) {
             if (p.b >= 0) p.b = patch.node[p.b];
         }
     } else {
-        const auto trials = try_splits(patch, quality(panel), rules_, 3);
+        const auto trials = try_splits(patch, quality(panel), rules_, 3, keeps_candidates_ ? &candidates_ : nullptr);
         if (trials.empty()) return false;
         const double before = excess(quality(panel));
         const auto value = [&](const Trial& t) { return (t.is_allowed ? 1 : 0.1) * (before - t.excess); };
@@ -223,6 +224,7 @@ bool Layout::improve() {
 }
 
 void Layout::search() {
+    keeps_candidates_ = true;
     for (int round = 0; round < 3; ++round) {
         refine();
         prune();
@@ -230,6 +232,7 @@ void Layout::search() {
         for (Panel& p : panels_) p.stuck = false;
         prune();
     }
+    keeps_candidates_ = false;
 }
 
 }  // namespace formwork

@@ -139,13 +139,49 @@ double boundary_angle(const PanelPatch& p, int node) {
     return angle;
 }
 
+namespace {
+
+double loop_length(const PanelPatch& p, const std::vector<int>& loop) {
+    double length = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i) length += (p.surface.x[loop[i]] - p.surface.x[loop[(i + 1) % loop.size()]]).norm();
+    return length;
+}
+
+/// The point of an outline `arm` m away from its node i, onwards (step 1) or back (step -1).
+Vector3d point_along(const PanelPatch& p, const std::vector<int>& loop, int i, int step, double arm) {
+    const int n = static_cast<int>(loop.size());
+    double left = arm;
+    for (int j = i, count = 0; count < n; ++count) {
+        const int k = (j + step + n) % n;
+        const Vector3d &a = p.surface.x[loop[j]], &b = p.surface.x[loop[k]];
+        const double l = (b - a).norm();
+        if (l >= left) return a + left / l * (b - a);
+        left -= l;
+        j = k;
+    }
+    return p.surface.x[loop[i]];
+}
+
+}  // namespace
+
 std::vector<int> corner_nodes(const PanelPatch& p) {
     constexpr double turn = 40 * std::numbers::pi / 180;        // at junctions
     constexpr double rim_turn = 50 * std::numbers::pi / 180;    // elsewhere: the mesh's own zigzag must not count
+    constexpr int arm_edges = 4;                                // nor does that of a rim with teeth, seen over a few edges
     std::vector<int> corners;
-    for (const auto& loop : p.topology.boundary_loops)
-        for (int v : loop)
-            if (!p.given[v] && std::abs(boundary_angle(p, v) - std::numbers::pi) > (p.junction[v] ? turn : rim_turn)) corners.push_back(v);
+    for (const auto& loop : p.topology.boundary_loops) {
+        const int n = static_cast<int>(loop.size());
+        const double length = loop_length(p, loop), arm = std::min(arm_edges * length / n, length / 8);
+        for (int i = 0; i < n; ++i) {
+            const int v = loop[i];
+            if (p.given[v] || std::abs(boundary_angle(p, v) - std::numbers::pi) <= (p.junction[v] ? turn : rim_turn)) continue;
+            if (!p.junction[v]) {
+                const Vector3d &x = p.surface.x[v], before = x - point_along(p, loop, i, -1, arm), after = point_along(p, loop, i, 1, arm) - x;
+                if (std::atan2(before.cross(after).norm(), before.dot(after)) <= rim_turn) continue;
+            }
+            corners.push_back(v);
+        }
+    }
     return corners;
 }
 
@@ -154,26 +190,12 @@ OutlineShape outline_shape(const PanelPatch& p, double reach) {
     OutlineShape shape;
     for (const auto& loop : p.topology.boundary_loops) {
         const int n = static_cast<int>(loop.size());
-        double round = 0;
-        for (int i = 0; i < n; ++i) round += (p.surface.x[loop[i]] - p.surface.x[loop[(i + 1) % n]]).norm();
-        const double arm = std::min(reach, round / 8);
+        const double arm = std::min(reach, loop_length(p, loop) / 8);
         for (int i = 0; i < n; ++i) {
             const double angle = boundary_angle(p, loop[i]);
             if (angle > inner) ++shape.inner_corners;
             if (angle > corner) continue;
-            const auto along = [&](int step) {   // the point of the outline `arm` away from the corner
-                double left = arm;
-                for (int j = i, count = 0; count < n; ++count) {
-                    const int k = (j + step + n) % n;
-                    const Vector3d &a = p.surface.x[loop[j]], &b = p.surface.x[loop[k]];
-                    const double l = (b - a).norm();
-                    if (l >= left) return Vector3d(a + left / l * (b - a));
-                    left -= l;
-                    j = k;
-                }
-                return p.surface.x[loop[i]];
-            };
-            const double gap = (along(1) - along(-1)).norm();
+            const double gap = (point_along(p, loop, i, 1, arm) - point_along(p, loop, i, -1, arm)).norm();
             shape.sharpest = std::min({shape.sharpest, angle, 2 * std::asin(std::min(1., gap / (2 * arm)))});
         }
     }

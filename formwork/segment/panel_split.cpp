@@ -19,6 +19,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 struct Candidate {
     Path path;
+    CandidateCurve::Kind kind;
     StretchEstimate after;
     double score = 0;   // larger is better
     int seed = -1;
@@ -141,11 +142,12 @@ public:
         if (!is_closed_) before_ = model_.whole();
     }
 
-    std::vector<Split> along_field(int count) {
+    std::vector<Split> along_field(int count, std::vector<CandidateCurve>* all) {
         if (is_closed_)
             collect_loops();
         else
             collect_crossings();
+        if (all) report_candidates(*all);
         std::stable_sort(found_.begin(), found_.end(), [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
         std::vector<Split> best;
         std::vector<Vector3d> middles;
@@ -188,6 +190,13 @@ public:
     }
 
 private:
+    void report_candidates(std::vector<CandidateCurve>& all) const {
+        for (const Candidate& c : found_) {
+            all.push_back({c.kind, c.path.cost, {}});
+            for (const CurvePoint& p : sample_points(graph_, c.path)) all.back().points.push_back(position(patch_.surface, p));
+        }
+    }
+
     std::vector<int> border_samples(int loop) const {
         std::vector<int> samples;
         for (int i = 0; i < graph_.n_samples(); ++i)
@@ -245,9 +254,9 @@ private:
         return landing;
     }
 
-    void try_path(const std::optional<Path>& path, int seed) {
+    void try_path(const std::optional<Path>& path, CandidateCurve::Kind kind, int seed) {
         if (!path || path->samples.size() < 3) return;
-        Candidate c{*path, model_.with_cut(sample_points(graph_, *path)), 0, seed, false};
+        Candidate c{*path, kind, model_.with_cut(sample_points(graph_, *path)), 0, seed, false};
         const double flat = std::pow(0.4 * rules_.max_distortion, 2);   // stretch that nobody sees
         if (is_closed_) {
             c.score = -path->cost * std::sqrt(c.after.energy / c.after.area + flat);
@@ -278,7 +287,7 @@ private:
                 if (graph_.is_singular(v)) continue;
                 const auto path = closed_path(graph_, v, layer, 4 * best);
                 if (path) best = std::min(best, path->cost);
-                try_path(path, v);
+                try_path(path, CandidateCurve::Kind::loop, v);
             }
     }
 
@@ -287,7 +296,7 @@ private:
         std::set<int> used;
         const auto try_seed = [&](int v) {
             if (graph_.is_border(v) || graph_.is_singular(v) || !used.insert(v).second) return;
-            for (int layer = 0; layer < 2; ++layer) try_path(paths.through(v, layer), v);
+            for (int layer = 0; layer < 2; ++layer) try_path(paths.through(v, layer), CandidateCurve::Kind::crossing, v);
         };
         std::vector<int> first;   // where the stretch is largest, then all over
         const auto order = model_.nodes_by_stretch();
@@ -300,7 +309,7 @@ private:
                 if (auto path = paths.through_ports(ports[i], ports[j])) pairs.push_back(std::move(*path));
         std::stable_sort(pairs.begin(), pairs.end(), [](const Path& a, const Path& b) { return a.cost > b.cost; });
         for (std::size_t i = 0; i < std::min(pairs.size(), most_port_pairs); ++i)   // the long ones divide most
-            try_path(pairs[i], pairs[i].samples[pairs[i].samples.size() / 2]);
+            try_path(pairs[i], CandidateCurve::Kind::separatrix, pairs[i].samples[pairs[i].samples.size() / 2]);
         // Look again close to the best.
         for (int round = 0; round < 2 && !found_.empty(); ++round) {
             const auto best = std::max_element(found_.begin(), found_.end(),
@@ -341,8 +350,9 @@ private:
 
 }  // namespace
 
-std::vector<Split> best_splits(const PanelPatch& patch, const SurfaceField& field, const SplitRules& rules, int count) {
-    return Search(patch, field, rules).along_field(count);
+std::vector<Split> best_splits(const PanelPatch& patch, const SurfaceField& field, const SplitRules& rules, int count,
+                               std::vector<CandidateCurve>* all) {
+    return Search(patch, field, rules).along_field(count, all);
 }
 
 std::optional<Split> plain_split(const PanelPatch& patch, const SurfaceField& field, const SplitRules& rules) {

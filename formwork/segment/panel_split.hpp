@@ -36,8 +36,10 @@ struct Split {
 /// lowers the estimated stretch energy most. Pieces must be wide enough and have few corners.
 /// A panel with several borders is first cut from one border to another, one with handles along a curve that
 /// does not divide it.
+/// @param all   when given, every curve that was compared is added to it
 /// @returns at most `count` curves that differ in where they run; none when no curve along the field qualifies
-std::vector<Split> best_splits(const PanelPatch& patch, const SurfaceField& field, const SplitRules& rules, int count);
+std::vector<Split> best_splits(const PanelPatch& patch, const SurfaceField& field, const SplitRules& rules, int count,
+                               std::vector<CandidateCurve>* all = nullptr);
 
 /// The pieces that a curve makes of a panel, each with its own topology; junctions are not marked.
 /// None when the curve crosses itself.

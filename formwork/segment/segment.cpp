@@ -1,7 +1,6 @@
 #include "formwork/segment/segment.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "arcsim/base/error.hpp"
 #include "formwork/segment/lay_out.hpp"
@@ -44,11 +43,7 @@ Segmentation segment(const Surface& s, const std::vector<DirectionData>& data, c
     const auto hard = hard_directions(s, topology, params.constraints, strokes);
     wanted.hard.insert(wanted.hard.end(), hard.begin(), hard.end());
     const CrossField field = smooth_cross_field(s, topology, data, wanted);
-    LayoutJob job{s, topology, data, params, field, find_singularities(s, topology, field), std::move(strokes), {}};
-    job.rules.drift = {params.drift_penalty, params.max_angle_deg * std::numbers::pi / 180};
-    job.rules.min_width = params.min_width;
-    job.rules.max_distortion = params.max_distortion;
-    return lay_out(job);
+    return lay_out({s, topology, data, params, field, find_singularities(s, topology, field), std::move(strokes), split_rules(params)});
 }
 
 }  // namespace formwork

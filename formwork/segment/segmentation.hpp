@@ -9,6 +9,8 @@
 
 namespace formwork {
 
+using arcsim::Vector3d;
+
 /// Where a node of the cut mesh lies on the input mesh.
 struct SurfacePoint {
     int face = 0;                                 // of the input mesh
@@ -24,6 +26,14 @@ struct Seam {
     bool is_loop() const { return nodes.size() > 1 && nodes.front() == nodes.back(); }
 };
 
+/// A curve along the field that was compared with others when a panel of the first search was to be split.
+struct CandidateCurve {
+    enum class Kind { crossing, loop, separatrix };   // from border to border; closed; through a singularity
+    Kind kind = Kind::crossing;
+    double cost = 0;                  // by (13)
+    std::vector<Vector3d> points;     // on the surface, m
+};
+
 /// The cut surface: what `segment` hands to `panels` and `sew`.
 struct Segmentation {
     Surface mesh;                           // rest surface, faces split along the seams, same orientation
@@ -36,6 +46,7 @@ struct Segmentation {
     std::vector<DirectionData> direction;   // per face of `mesh`: target of the weave
     std::vector<double> field_theta;        // per face of `mesh`: one arm of the smoothed field, from edge v0->v1
     std::vector<Singularity> singularities; // nodes of `mesh`
+    std::vector<CandidateCurve> candidates; // every one of the layout that was chosen
     CrossField field;                       // the smoothed field, on the input mesh; not read back from files
     std::vector<std::string> violations;    // bounds that this layout does not meet, one line each; empty: valid
 };

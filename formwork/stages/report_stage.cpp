@@ -71,6 +71,8 @@ ReportInput gather(const StageContext& context, const JsonValue& summary) {
         in.convergence.push_back({"inflate", residual_history(*summary.find("inflate"))});
     }
     if (has(summary, "segment")) in.segmentation = read_segmentation(context.dir / "segment");
+    if (in.segmentation)
+        for (const CandidateCurve& c : in.segmentation->candidates) in.candidates.push_back(c.points);
     if (has(summary, "panels")) {
         const PanelSet set = make_panels(*in.segmentation, scene.formwork.panels);   // with all measures
         in.panels = set.panels;

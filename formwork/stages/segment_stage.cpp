@@ -112,7 +112,7 @@ JsonValue run_segment(const StageContext& context) {
     int step = 0;
     params.on_step = [&](std::string_view text) { context.progress.update({++step, -1, -1, {}, std::string(text)}); };
     Segmentation s = segment(in.surface, in.data, params);
-    if (keys.max_covariance_energy > 0) split_by_covariance(s, keys.max_covariance_energy, params.max_panels, keys.split);
+    if (keys.max_covariance_energy > 0) s = split_by_covariance(s, in.surface, in.data, params, keys.max_covariance_energy, keys.split);
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     write_segmentation(context.dir / "segment", s);
     const JsonValue summary = summary_of(in, s, wall);

@@ -56,6 +56,11 @@ void write_segmentation(const fs::path& folder, const Segmentation& s) {
         const SurfacePoint& p = s.source[i];
         source.add(i).add(p.face).add(p.barycentric[0]).add(p.barycentric[1]).add(p.barycentric[2]).end_row();
     }
+    CsvText candidates("curve,kind,cost,x,y,z");
+    for (std::size_t k = 0; k < s.candidates.size(); ++k)
+        for (const Vector3d& x : s.candidates[k].points)
+            candidates.add(static_cast<int>(k)).add(static_cast<int>(s.candidates[k].kind)).add(s.candidates[k].cost).add(x[0]).add(x[1]).add(x[2]).end_row();
+    write_file_atomically(folder / "candidates.csv", candidates.text());
     write_file_atomically(folder / "segments.obj", obj_with_groups(s));
     write_file_atomically(folder / "labels.csv", labels.text());
     write_file_atomically(folder / "layout.json", arcsim::to_text(layout_json(s)) + "\n");
@@ -106,6 +111,18 @@ Segmentation read_segmentation(const fs::path& folder) {
         s.seams[k].nodes.push_back(b);
     }
     std::error_code ignored;
+    if (fs::exists(folder / "candidates.csv", ignored)) {   // runs of earlier versions have none
+        const CsvFile candidates(folder / "candidates.csv", {"curve", "kind", "cost", "x", "y", "z"});
+        for (int r = 0; r < candidates.n_rows(); ++r) {
+            const std::size_t k = candidates.integer(r, 0, 0, candidates.n_rows());
+            if (k >= s.candidates.size()) {
+                s.candidates.resize(k + 1);
+                s.candidates[k].kind = static_cast<CandidateCurve::Kind>(candidates.integer(r, 1, 0, 3));
+                s.candidates[k].cost = candidates.number(r, 2);
+            }
+            s.candidates[k].points.emplace_back(candidates.number(r, 3), candidates.number(r, 4), candidates.number(r, 5));
+        }
+    }
     if (fs::exists(folder / "violations.txt", ignored)) {
         const std::string text = arcsim::read_text_file(folder / "violations.txt");
         for (std::size_t at = 0; at < text.size();) {
