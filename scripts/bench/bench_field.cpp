@@ -12,6 +12,7 @@
 
 #include "arcsim/mesh/obj_io.hpp"
 #include "formwork/segment/cross_field.hpp"
+#include "scripts/bench/subdivide.hpp"
 
 namespace {
 
@@ -26,29 +27,6 @@ double peak_mb() {
     rusage u{};
     getrusage(RUSAGE_SELF, &u);
     return static_cast<double>(u.ru_maxrss) / 1024;
-}
-
-/// Every face into four by the edges' middles; children take the parent's direction.
-void subdivide(arcsim::Surface& s, std::vector<formwork::DirectionData>& data) {
-    const arcsim::Topology t = arcsim::build_topology(s);
-    arcsim::Surface finer;
-    finer.x = s.x;
-    for (const arcsim::Edge& e : t.edges) finer.x.push_back((s.x[e.node[0]] + s.x[e.node[1]]) / 2);
-    std::vector<formwork::DirectionData> finer_data;
-    for (int f = 0; f < s.n_faces(); ++f) {
-        const auto& v = s.faces[f];
-        std::array<int, 3> m;   // on the edge opposite corner k
-        for (int k = 0; k < 3; ++k) m[k] = s.n_nodes() + t.face_edges[f][k];
-        const arcsim::Vector3d d = arcsim::face_frame(s, f).direction(data[f].theta);
-        for (const arcsim::Triangle& child : {arcsim::Triangle{v[0], m[2], m[1]}, arcsim::Triangle{m[2], v[1], m[0]},
-                                              arcsim::Triangle{m[1], m[0], v[2]}, arcsim::Triangle{m[0], m[1], m[2]}}) {
-            finer.faces.push_back(child);
-            finer_data.push_back(data[f]);
-            finer_data.back().theta = arcsim::face_frame(finer, finer.n_faces() - 1).angle(d);
-        }
-    }
-    s = std::move(finer);
-    data = std::move(finer_data);
 }
 
 void print(const char* what, const arcsim::Surface& s, const arcsim::Topology& t, const formwork::CrossField& field) {
