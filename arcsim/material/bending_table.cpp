@@ -25,7 +25,7 @@ double BendingTable::direction(const Vector2d& e) {
 
 BendingTable::Sample BendingTable::sample(double direction, double c) const {
     const double b = std::min(0.1 * c, 4.0);
-    const int column = std::clamp(static_cast<int>(std::floor(b)), 0, 3);
+    const int column = static_cast<int>(std::min(std::max(0.0, std::floor(b)), 3.0));   // 0 for NaN, which the answer then is
     const double fb = b - column;
     const int row = std::clamp(static_cast<int>(direction), 0, 1);
     const double fd = direction - row;

@@ -72,7 +72,7 @@ StiffnessSample interpolate_stiffness(const StretchingRows& rows, const Vector3d
     const double s_free = (root - 1) / full_strain;
     const double s = std::clamp(s_free, 0.0, blend ? 1 : below_one);
     const double a_free = stretch.phi * columns_per_radian;
-    const double a = std::clamp(a_free, 0.0, below_four);
+    const double a = std::min(std::max(0.0, a_free), below_four);   // 0 for NaN
     const int column = static_cast<int>(a);
     const double f = a - column;
 

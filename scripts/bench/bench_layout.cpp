@@ -84,7 +84,7 @@ int main(int argc, char** argv) try {
     if (argc > 5) p.min_width = std::stod(argv[5]);
     auto data = read_field(argv[2]);
     for (int i = 0; i < subdivisions; ++i) subdivide(s, data);
-    const auto cpu_s = [from = std::clock()]() mutable {
+    auto cpu_s = [from = std::clock()]() mutable {
         const std::clock_t now = std::clock(), before = std::exchange(from, now);
         return static_cast<double>(now - before) / CLOCKS_PER_SEC;
     };
