@@ -20,13 +20,13 @@ NUMERIC = ["arcsim/base", "arcsim/mesh", "arcsim/material"]       # never forces
 FORMWORK = {
     "formwork/strain": NUMERIC,
     "formwork/flatten": NUMERIC,
-    "formwork/segment": NUMERIC + ["formwork/strain", "formwork/flatten"],
+    "formwork/segment": NUMERIC + ["formwork/strain", "formwork/flatten", "formwork/mesher"],
     "formwork/lettering": NUMERIC,
     "formwork/panels": NUMERIC + ["formwork/strain", "formwork/flatten", "formwork/segment", "formwork/lettering"],
     "formwork/mesher": NUMERIC,
     "formwork/load": [*ARCSIM],
     "formwork/fabric": [*ARCSIM, "formwork/strain"],
-    "formwork/equilibrium": [*ARCSIM, "formwork/load", "formwork/fabric", "formwork/strain"],
+    "formwork/equilibrium": [*ARCSIM, "formwork/load", "formwork/fabric", "formwork/mesher", "formwork/strain"],
     "formwork/sew": [*ARCSIM, "formwork/load", "formwork/fabric", "formwork/equilibrium", "formwork/strain",
                      "formwork/segment", "formwork/panels"],
 }

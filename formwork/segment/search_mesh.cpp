@@ -6,6 +6,7 @@
 #include <queue>
 #include <set>
 
+#include "formwork/mesher/edge_collapse.hpp"
 #include "formwork/segment/mesh_repair.hpp"
 
 namespace formwork {
@@ -20,16 +21,10 @@ constexpr double agreement = 0.93;            // cosine between a face's normal 
 class Coarsening {
 public:
     Coarsening(const Surface& input, const Topology& t)
-        : input_(input), topology_(t), s_(input), around_(t.node_faces), origin_(input.x.size()),
-          feature_(input.x.size()), stamp_(input.x.size(), 0), n_faces_(input.n_faces()) {
+        : input_(input), topology_(t), mesh_(input, std::cos(fold)), origin_(input.x.size()), stamp_(input.x.size(), 0) {
         for (int v = 0; v < input.n_nodes(); ++v) origin_[v] = t.node_faces[v].front();
         normal_.resize(input.faces.size());
         for (int f = 0; f < input.n_faces(); ++f) normal_[f] = arcsim::face_normal(input, f);
-        for (const arcsim::Edge& e : t.edges) {
-            if (!e.is_boundary() && normal_[e.face[0]].dot(normal_[e.face[1]]) > std::cos(fold)) continue;
-            feature_[e.node[0]].push_back(e.node[1]);
-            feature_[e.node[1]].push_back(e.node[0]);
-        }
     }
 
     SearchMesh run(int target) {
@@ -48,7 +43,6 @@ private:
         bool operator<(const Item& o) const { return length != o.length ? length > o.length : std::pair(a, b) > std::pair(o.a, o.b); }
     };
 
-    bool is_feature(int a, int b) const { return std::count(feature_[a].begin(), feature_[a].end(), b) > 0; }
     double least_angle(const arcsim::Triangle& t) const { return arcsim::min_angle(s_, t); }
     Vector3d normal(const arcsim::Triangle& t) const { return arcsim::face_normal(s_, t); }
 
@@ -56,22 +50,13 @@ private:
 
     /// Least angle of the faces around a once it is drawn into b; negative when that must not be done.
     double after_collapse(int a, int b) const {
-        if (!feature_[a].empty()) {   // only along its own line, where that is straight
-            if (feature_[a].size() != 2 || !is_feature(a, b)) return -1;
-            const int beyond = feature_[a][0] == b ? feature_[a][1] : feature_[a][0];
+        if (!mesh_.keeps_lines(a, b)) return -1;
+        if (!feature_[a].empty()) {   // only where the line is straight
+            const int beyond = mesh_.beyond(a, b);
             const Vector3d u = s_.x[a] - s_.x[beyond], v = s_.x[b] - s_.x[a];
-            if (u.dot(v) < std::cos(straight) * u.norm() * v.norm() || is_feature(beyond, b)) return -1;
+            if (u.dot(v) < std::cos(straight) * u.norm() * v.norm() || mesh_.is_on_line(beyond, b)) return -1;
         }
-        std::set<int> link_a, link_b;
-        int shared = 0;
-        for (int f : around_[a]) {
-            link_a.insert(s_.faces[f].begin(), s_.faces[f].end());
-            shared += std::count(s_.faces[f].begin(), s_.faces[f].end(), b) > 0;
-        }
-        for (int f : around_[b]) link_b.insert(s_.faces[f].begin(), s_.faces[f].end());
-        int common = 0;
-        for (int v : link_a) common += v != a && v != b && link_b.count(v);
-        if (common != shared) return -1;
+        if (!mesh_.keeps_surface(a, b)) return -1;
         double smallest = std::numbers::pi;
         for (int f : around_[a]) {
             arcsim::Triangle t = s_.faces[f];
@@ -84,25 +69,7 @@ private:
     }
 
     void collapse(int a, int b) {
-        for (int f : around_[a]) {
-            arcsim::Triangle& t = s_.faces[f];
-            if (std::count(t.begin(), t.end(), b)) {
-                for (int v : t)
-                    if (v != a) std::erase(around_[v], f);
-                t = {-1, -1, -1};
-                --n_faces_;
-                continue;
-            }
-            std::replace(t.begin(), t.end(), a, b);
-            around_[b].push_back(f);
-        }
-        around_[a].clear();
-        if (!feature_[a].empty()) {
-            const int beyond = feature_[a][0] == b ? feature_[a][1] : feature_[a][0];
-            std::replace(feature_[b].begin(), feature_[b].end(), a, beyond);
-            std::replace(feature_[beyond].begin(), feature_[beyond].end(), a, b);
-            feature_[a].clear();
-        }
+        mesh_.draw(a, b);
         ++stamp_[a];
         ++stamp_[b];
         std::set<int> ring;
@@ -114,7 +81,7 @@ private:
     void collapse_edges(int target) {
         for (const arcsim::Edge& e : topology_.edges) offer(e.node[0], e.node[1]);
         const double longest = 1.5 * std::sqrt(4 / std::sqrt(3.) * arcsim::total_area(input_) / target);
-        while (n_faces_ > target && !queue_.empty()) {
+        while (mesh_.n_faces > target && !queue_.empty()) {
             const Item q = queue_.top();
             queue_.pop();
             if (stamp_[q.a] != q.stamp_a || stamp_[q.b] != q.stamp_b) continue;
@@ -134,7 +101,7 @@ private:
     }
 
     void flip(int f, int a, int b) {   // f lies left of a -> b
-        if (is_feature(a, b)) return;
+        if (mesh_.is_on_line(a, b)) return;
         int g = -1;
         for (int h : around_[a])
             if (h != f && std::count(s_.faces[h].begin(), s_.faces[h].end(), b)) g = h;
@@ -197,14 +164,14 @@ private:
 
     const Surface& input_;
     const Topology& topology_;
-    Surface s_;
-    std::vector<std::vector<int>> around_;    // node -> faces
+    CollapsingMesh mesh_;
+    Surface& s_ = mesh_.surface;
+    std::vector<std::vector<int>>& around_ = mesh_.around;
+    const std::vector<std::vector<int>>& feature_ = mesh_.line;
     std::vector<int> origin_;                 // per node: an input face that it lies on
-    std::vector<std::vector<int>> feature_;   // node -> other ends of its rim and fold edges
     std::vector<int> stamp_;
     std::vector<Vector3d> normal_;            // per face: of the input
     std::priority_queue<Item> queue_;
-    int n_faces_;
 };
 
 }  // namespace
