@@ -72,7 +72,7 @@ std::vector<std::string> draw_sweep_charts(const SweepParams& params, const Swee
             const std::string name = c.series.empty() ? "" : results.cell(row, c.series);
             if (good && !curves.contains(name)) {
                 names.push_back(name);
-                const std::string label = c.series.empty() ? "" : c.series + " " + name;
+                const std::string label = c.series.empty() ? "" : c.series.substr(c.series.rfind('.') + 1) + " " + name;   // a legend is narrow
                 curves[name] = {label, {}, {}, true, true, static_cast<int>(curves.size())};
             }
             ChartSeries& s = good ? curves[name] : failed;
