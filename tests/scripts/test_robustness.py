@@ -55,7 +55,7 @@ def figures(folder):
 
 def make_scene(folder, mesh="bag.obj", **changes):
     folder.mkdir(parents=True, exist_ok=True)
-    subprocess.run([str(program), "mesh", "vase", "--edge", "0.01", "-q", "-o", str(folder / "bag.obj")], check=True)
+    subprocess.run([str(program), "mesh", "vase", "--edge", "0.014", "-q", "-o", str(folder / "bag.obj")], check=True)
     f = {"fixed": [{"boundary": "top"}], "plaster": {"density": 1500, "fill": {"depth_below_rim": 0.005}}}
     f.update(changes)
     (folder / "bag.json").write_text(json.dumps({"cloths": [{"mesh": mesh}], "formwork": f}))
