@@ -11,8 +11,8 @@ using arcsim::PcgStatus;
 
 namespace {
 
-constexpr int pcg_limit = 80;            // beyond, a new factor is cheaper
-constexpr int pcg_refactor_next = 32;    // beyond, the next step gets a new factor
+constexpr int pcg_limit = 60;            // beyond, a new factor is cheaper
+constexpr int pcg_refactor_next = 24;    // beyond, the next step gets a new factor
 constexpr double fade_below = 1e-6;      // of T*: smaller regularisations are set to nothing
 constexpr double wake_at = 1e-4;         // of T*: the first one tried where the tangent is not definite
 constexpr double largest_step = 0.5;     // of the rest shape's half width per Newton step
@@ -181,7 +181,7 @@ SolveOutcome NewtonSolver::solve(VectorXd& x, double tolerance, double T0, const
         if (longest > longest_allowed) d_ *= longest_allowed / longest;
         // Along d the fabric pulls forward at first (slope > 0).
         const double slope = -d_.dot(g_);
-        const bool halves = H_.is_general();   // a law without potential has no least energy along d
+        const bool halves = by_residual || system_.seams().may_push();   // springs that push have no least energy along d
         step = 1;
         VectorXd trial;
         StaticSystem::Balance there;

@@ -70,6 +70,10 @@ double SeamForce::max_tension(const VectorXd& x) const {
     return most;
 }
 
+bool SeamForce::may_push() const {
+    return std::any_of(springs_.begin(), springs_.end(), [](const SeamSpring& s) { return s.L > 0 && !s.goes_slack; });
+}
+
 double SeamForce::largest_stiffness() const {
     double most = 0;
     for (const SeamSpring& e : springs_) most = std::max(most, e.kappa);

@@ -30,6 +30,8 @@ public:
 
     /// Largest tension of a spring, N; 0 when all are slack.
     double max_tension(const arcsim::VectorXd& x) const;
+    /// Whether a spring pushes when it is shorter than its rest length.
+    bool may_push() const;
     /// Largest kappa, N/m.
     double largest_stiffness() const;
 
