@@ -1,7 +1,7 @@
 // Sewn bags under refinement of one fixed layout: `scripts/study_seams`.
 //
-//   study_seams SCENE FOLDER REFINEMENTS [default]   FOLDER holds the scene's finished stages up to panels;
-//                                                   default: the scene's own threads alone, from its own start
+//   study_seams SCENE FOLDER REFINEMENTS [VARIANT]   FOLDER holds the scene's finished stages up to panels; VARIANT: one
+//                                                   of those below alone, or "default": the first, from one start
 //
 // Every refinement cuts each flat face into four alike, so that the bag stays the same polyhedron and only the
 // unknowns become finer. One CSV line per run: seam model, start, size, and what the bag answers.
@@ -119,7 +119,7 @@ int n_shorter(const SewResult& r) {
     return n;
 }
 
-void study(const std::string& scene_file, const std::string& folder, int refinements, bool only_default) {
+void study(const std::string& scene_file, const std::string& folder, int refinements, const std::string& only) {
     const FormworkScene scene = read_scene(scene_file, {});
     const BagMesh mesh = load_bag_mesh(scene);
     const std::filesystem::path dir = folder;
@@ -167,7 +167,7 @@ void study(const std::string& scene_file, const std::string& folder, int refinem
             for (SewStart start : {SewStart::inflated, SewStart::rest}) {
                 p.start = start;
                 const bool is_default = &v == variants && start == SewStart::inflated;
-                if (only_default && !is_default) continue;
+                if (only == "default" ? !is_default : !only.empty() && only != v.name) continue;
                 p.compare = is_default ? std::vector<std::string>{"rotated_45"} : std::vector<std::string>{};
                 std::printf("%s,%d,%s,", v.name, level, start == SewStart::rest ? "rest" : "inflated");
                 try {
@@ -197,13 +197,12 @@ void study(const std::string& scene_file, const std::string& folder, int refinem
 }  // namespace
 
 int main(int argc, char** argv) {
-    const bool only_default = argc == 5 && std::string(argv[4]) == "default";
-    if (argc != 4 && !only_default) {
-        std::fprintf(stderr, "usage: study_seams SCENE FOLDER REFINEMENTS [default]\n");
+    if (argc != 4 && argc != 5) {
+        std::fprintf(stderr, "usage: study_seams SCENE FOLDER REFINEMENTS [VARIANT]\n");
         return 2;
     }
     try {
-        study(argv[1], argv[2], std::atoi(argv[3]), only_default);
+        study(argv[1], argv[2], std::atoi(argv[3]), argc == 5 ? argv[4] : "");
     } catch (const std::exception& error) {
         std::fprintf(stderr, "study_seams: %s\n", error.what());
         return 2;
