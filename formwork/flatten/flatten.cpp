@@ -83,6 +83,7 @@ FlattenResult flatten_disk(const Surface& disk, const FlattenParams& params) {
     FlattenResult result;
     Eigen::SparseMatrix<double> hessian;
     Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>, Eigen::Lower> solver;
+    solver.cholmod().print = 0;   // what fails is told by the exception
     VectorXd gradient;
     while (result.iterations < params.max_iterations && !result.converged) {
         const double e = energy.assemble(u, relative_shift * energy.diagonal_scale(), gradient, hessian);

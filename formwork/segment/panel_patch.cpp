@@ -162,24 +162,36 @@ Vector3d point_along(const PanelPatch& p, const std::vector<int>& loop, int i, i
     return p.surface.x[loop[i]];
 }
 
+/// By how much an outline turns within the surface from its mean course before node i to that after it, rad: nodes weigh by
+/// nearness, and junctions, which are corners of their own, do not count.
+double turn_along(const PanelPatch& p, const std::vector<int>& loop, int i, double arm) {
+    const int n = static_cast<int>(loop.size());
+    double turn = 0;
+    for (int step : {1, -1}) {
+        double gone = 0;
+        for (int j = step > 0 ? i : (i - 1 + n) % n, last = i, count = 0; count < n; ++count, last = j, j = (j + step + n) % n) {
+            gone += (p.surface.x[loop[j]] - p.surface.x[loop[last]]).norm();
+            if (gone >= arm) break;
+            if (!p.junction[loop[j]]) turn += (1 - gone / arm) * (std::numbers::pi - boundary_angle(p, loop[j]));
+        }
+    }
+    return turn;
+}
+
 }  // namespace
 
 std::vector<int> corner_nodes(const PanelPatch& p) {
     constexpr double turn = 40 * std::numbers::pi / 180;        // at junctions
     constexpr double rim_turn = 50 * std::numbers::pi / 180;    // elsewhere: the mesh's own zigzag must not count
-    constexpr int arm_edges = 4;                                // nor does that of a rim with teeth, seen over a few edges
+    constexpr double arm_edges = 6, arm_share = 1. / 32;        // nor do the teeth of a ragged rim: seen over an arm's length, they cancel
     std::vector<int> corners;
     for (const auto& loop : p.topology.boundary_loops) {
         const int n = static_cast<int>(loop.size());
-        const double length = loop_length(p, loop), arm = std::min(arm_edges * length / n, length / 8);
+        const double length = loop_length(p, loop), arm = std::min(length * std::max(arm_edges / n, arm_share), length / 8);
         for (int i = 0; i < n; ++i) {
             const int v = loop[i];
             if (p.given[v] || std::abs(boundary_angle(p, v) - std::numbers::pi) <= (p.junction[v] ? turn : rim_turn)) continue;
-            if (!p.junction[v]) {
-                const Vector3d &x = p.surface.x[v], before = x - point_along(p, loop, i, -1, arm), after = point_along(p, loop, i, 1, arm) - x;
-                if (std::atan2(before.cross(after).norm(), before.dot(after)) <= rim_turn) continue;
-            }
-            corners.push_back(v);
+            if (p.junction[v] || std::abs(turn_along(p, loop, i, arm)) > rim_turn) corners.push_back(v);
         }
     }
     return corners;

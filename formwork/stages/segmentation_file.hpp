@@ -11,8 +11,9 @@ namespace formwork {
 /// segments.obj (cut mesh, one group per panel), labels.csv (face,panel), field.csv (face,x,y,z: one arm of the smoothed
 /// field), singularities.csv (vertex,index,x,y,z), seams.csv (seam,panel_a,panel_b,vertex_a,vertex_b: an edge of the chain
 /// a line, in order; panel_b is -1 on a rim), source.csv (vertex,face,b0,b1,b2: where it lies on the input mesh),
-/// directions.csv (face,source_face,theta,s1,s2,weight,field_theta), violations.txt (only when there are any). Everything
-/// is counted from 0.
+/// directions.csv (face,source_face,theta,s1,s2,weight,field_theta), candidates.csv (curve,kind,cost,x,y,z: a point a line;
+/// kind 0 from border to border, 1 closed, 2 through a singularity), violations.txt (only when there are any). layout.json
+/// tells the same layout as nodes, arcs and panels. Everything is counted from 0.
 void write_segmentation(const std::filesystem::path& folder, const Segmentation& s);
 
 /// @throws InputError: a file is missing or broken, numbers do not fit together

@@ -87,6 +87,22 @@ TEST_CASE("a tube is opened into disks that lie flat without stretch") {
     CHECK(r.n_panels <= 2);
 }
 
+TEST_CASE("the corners of a sheet count, the teeth of a ragged rim do not") {
+    const auto corners = [](const Surface& s) {
+        std::vector<int> all(s.faces.size());
+        for (std::size_t f = 0; f < all.size(); ++f) all[f] = static_cast<int>(f);
+        return corner_nodes(extract_patch(CutMesh(s), all)).size();
+    };
+    Surface s = grid(40, 40, false, false, [](double u, double v) { return Vector3d(u, v, 0); });
+    CHECK(corners(s) == 4);
+    for (int i = 1; i < 40; ++i)   // one side with teeth as high as they are wide
+        if (i % 2) {
+            for (Vector3d& x : s.x)
+                if (x[1] == 1 && std::abs(x[0] - i / 40.) < 1e-9) x[1] += 1 / 40.;
+        }
+    CHECK(corners(s) == 4);
+}
+
 TEST_CASE("a cup with one rim becomes few disks") {
     const Surface s = cup(48, 0.1, 0.25);
     const Segmentation r = segment(s, along(s, {0, 0, 1}, 0.5), {});
