@@ -6,6 +6,7 @@
 #include "arcsim/base/text.hpp"
 #include "arcsim/mesh/obj_io.hpp"
 #include "formwork/segment/covariance_split.hpp"
+#include "formwork/segment/panel_patch.hpp"
 #include "formwork/segment/segment.hpp"
 #include "formwork/stages/segmentation_file.hpp"
 #include "formwork/stages/stage.hpp"
@@ -57,16 +58,13 @@ double seam_length(const Segmentation& s) {
     return length;
 }
 
+/// Once it is cut open along seams that run inside it, every panel is a disk.
 bool all_disks(const Segmentation& s) {
-    for (int p = 0; p < s.n_panels; ++p) {
-        Surface piece{s.mesh.x, {}};
-        for (int f = 0; f < s.mesh.n_faces(); ++f)
-            if (s.panel[f] == p) piece.faces.push_back(s.mesh.faces[f]);
-        if (piece.faces.empty() || !arcsim::find_defects(piece).empty()) return false;   // pinched at a node, for one
-        const Topology t = arcsim::build_topology(piece);
-        if (t.n_components != 1 || t.euler_characteristic() != 1) return false;
-    }
-    return true;
+    CutMesh cut(s.mesh);
+    for (const Seam& seam : s.seams)
+        for (std::size_t i = 0; !seam.is_rim() && i + 1 < seam.nodes.size(); ++i) cut.mark_seam(seam.nodes[i], seam.nodes[i + 1]);
+    const auto panels = panel_faces(s.panel, s.n_panels);
+    return std::all_of(panels.begin(), panels.end(), [&](const auto& faces) { return extract_patch(cut, faces).is_disk(); });
 }
 
 JsonValue summary_of(const SegmentInput& in, const Segmentation& s, double wall) {
