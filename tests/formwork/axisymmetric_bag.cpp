@@ -80,13 +80,14 @@ public:
     }
 
     State end(double pole_stretch, double pole_height) {
-        constexpr int steps = 3000;
+        constexpr int steps = 1000;
         const double h = length_ / steps;
         least_ = 1e300;
         const double N = tension(b_.fabric, pole_stretch, pole_stretch);
         const double turn = pressure(pole_height) * pole_stretch * pole_stretch / (2 * N);   // phi' at the pole
         State x;
-        x << pole_stretch * h, pole_height + 0.5 * pole_stretch * turn * h * h, turn * h, N * h, 0, 0;
+        x << pole_stretch * h, pole_height + 0.5 * pole_stretch * turn * h * h, turn * h, N * h, 0,
+            M_PI * pressure(pole_height) * pole_stretch * pole_stretch * h * h;
         double s = h;
         // The first step is the pole's series; the sock's corner lies on a step's end.
         for (const double to : {b_.kind == "sock" ? b_.radius : length_, length_}) {
@@ -152,7 +153,7 @@ Section solve(const Trough& t, const Section& guess) {
     const auto end = [&](double stretch, double bottom) {
         l = stretch;
         T = tension(t.fabric, l, 1);
-        constexpr int steps = 3000;
+        constexpr int steps = 1000;
         const double d = 0.5 * t.length / steps;
         Half h(0, bottom, 0, 0);
         for (int i = 0; i < steps; ++i) {
