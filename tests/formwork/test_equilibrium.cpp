@@ -84,12 +84,20 @@ TEST_CASE("a wrinkled bag that starts on coarser meshes ends in the same shape")
     REQUIRE(nested.coarse_iterations > 0);
     REQUIRE(nested.wrinkled_faces > 0);
     REQUIRE(nested.regularisation.depth_effect < 1e-3);
+    p.start = p.rest.x;
+    shapes::jiggle(p.start, p.fixed, 1e-3, 3);
+    const EquilibriumResult carried_down = find_equilibrium(p);   // a given start is nested too
+    REQUIRE(carried_down.coarse_iterations > 0);
+    REQUIRE(carried_down.regularisation.prestress == Approx(nested.regularisation.prestress).epsilon(1e-12));
+    REQUIRE(largest_difference(nested, carried_down) < 1e-9);
+    p.solver.nested = false;
     p.material.prestress = nested.regularisation.prestress;
     p.material.residual = nested.regularisation.residual;
-    for (const bool shallow : {false, true}) {
-        p.start = p.rest.x;
-        if (shallow) shapes::jiggle(p.start, p.fixed, 1e-3, 3);
-        REQUIRE(largest_difference(nested, find_equilibrium(p)) < 1e-9);
+    for (const bool filled : {false, true}) {
+        p.start = filled ? carried_down.x : std::vector<Vector3d>{};
+        const EquilibriumResult alone = find_equilibrium(p);
+        REQUIRE(alone.coarse_iterations == 0);
+        REQUIRE(largest_difference(nested, alone) < 1e-9);
     }
 }
 
