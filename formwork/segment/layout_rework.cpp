@@ -12,7 +12,7 @@ namespace formwork {
 namespace {
 
 constexpr int first_cuts = 4;          // that a new layout of a group is begun with
-constexpr double most_work = 30;       // faces that are laid out anew, all groups and cuts, over the mesh's
+constexpr double most_work = 12;       // faces that are laid out anew, all groups and cuts, over the mesh's
 constexpr double taste_work = 3;       // the part of it that may go into panels that only look bad
 constexpr double least_gain = 0.02;    // in panels: for less, a layout is not changed
 constexpr double bad_taste = 0.25;     // in panels: what a panel's outline costs
