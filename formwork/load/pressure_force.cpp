@@ -132,15 +132,17 @@ void PressureForce::assemble(const State& s, VectorXd* g, BlockMatrix* H) const 
     }
 }
 
-void PressureForce::add_gradient(const State& s, VectorXd& g) const { assemble<true, false>(s, &g, nullptr); }
+void PressureForce::add_gradient(const State& s, VectorXd& g) const {
+    if (presses()) assemble<true, false>(s, &g, nullptr);
+}
 
 void PressureForce::add_hessian(const State& s, Tangent t, BlockMatrix& H) const {
-    if (t == Tangent::exact && jacobian_ != PressureJacobian::none) assemble<false, true>(s, nullptr, &H);
+    if (presses() && t == Tangent::exact && jacobian_ != PressureJacobian::none) assemble<false, true>(s, nullptr, &H);
 }
 
 void PressureForce::add_gradient_and_hessian(const State& s, Tangent t, VectorXd& g, BlockMatrix& H) const {
     if (t == Tangent::definite || jacobian_ == PressureJacobian::none) return add_gradient(s, g);
-    assemble<true, true>(s, &g, &H);
+    if (presses()) assemble<true, true>(s, &g, &H);
 }
 
 std::optional<double> PressureForce::energy(const State& s) const {

@@ -59,6 +59,7 @@ public:
     void set_scale(double s) { scale_ = s; }                    // of density and overpressure: load steps
     double rho_g() const { return scale_ * rho_g_; }
     double overpressure() const { return scale_ * overpressure_; }
+    bool presses() const { return rho_g() != 0 || overpressure() != 0; }   // a bag without load pays for none
     const Vector3d& up() const { return up_; }
     PressureQuadrature quadrature() const { return quadrature_; }
 
