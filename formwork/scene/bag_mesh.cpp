@@ -32,7 +32,8 @@ std::string stray_note(int vertices) {
 
 namespace {
 
-void drop_stray_nodes(ClothMesh& m, std::vector<std::string>& notes) {
+/// @returns how many
+int drop_stray_nodes(ClothMesh& m) {
     std::vector<int> number(m.n_nodes(), -1);
     for (const Triangle& t : m.face_nodes)
         for (const int node : t) number[node] = 0;
@@ -42,14 +43,15 @@ void drop_stray_nodes(ClothMesh& m, std::vector<std::string>& notes) {
         m.x[kept] = m.x[i], m.v[kept] = m.v[i], m.ny[kept] = m.ny[i], m.node_label[kept] = m.node_label[i];
         number[i] = kept++;
     }
-    if (kept == m.n_nodes()) return;
-    notes.push_back(stray_note(m.n_nodes() - kept));
+    const int gone = m.n_nodes() - kept;
+    if (gone == 0) return 0;
     m.x.resize(kept), m.v.resize(kept), m.ny.resize(kept), m.node_label.resize(kept);
     for (Triangle& t : m.face_nodes)
         for (int& node : t) node = number[node];
     std::erase_if(m.edges, [&](const arcsim::EdgeRecord& e) { return number[e.node[0]] < 0 || number[e.node[1]] < 0; });
     for (arcsim::EdgeRecord& e : m.edges)
         for (int& node : e.node) node = number[node];
+    return gone;
 }
 
 void check_numbers(const ClothMesh& m, const std::string& name) {
@@ -142,7 +144,8 @@ BagMesh prepare_bag_mesh(MeshFile file, const std::string& name, const BagMeshOp
     check_size(bag.cloth, name, options);
     if (options.weld_nodes)
         if (const int gone = weld(bag.cloth); gone > 0) bag.notes.push_back(welded_note(gone));
-    drop_stray_nodes(bag.cloth, bag.notes);
+    bag.stray_vertices = drop_stray_nodes(bag.cloth);
+    if (bag.stray_vertices > 0) bag.notes.push_back(stray_note(bag.stray_vertices));
     bag.surface = bag.cloth.surface();
     bag.topology = arcsim::build_topology(bag.surface, name);
     check_areas(bag.surface, name);

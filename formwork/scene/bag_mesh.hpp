@@ -36,6 +36,7 @@ struct BagMesh {
     Surface surface;                    // its nodes and faces
     arcsim::Topology topology;
     std::vector<FlatTriangle> flat;     // rest coordinates per face, m; empty: each face in its own plane
+    int stray_vertices = 0;             // of the file, that belong to no face and were left out
     std::vector<std::string> notes;     // what was done to the file: welded, dropped, taken as rest shape
 };
 

@@ -32,13 +32,22 @@ void check_input(const Surface& s, const Topology& t, const std::vector<Directio
                              " is not a number. Mend the field, or give the face the weight 0.");
 }
 
+std::vector<Stroke> strokes_of(const SegmentParams& params) {
+    return params.constraints.strokes.path.empty() ? std::vector<Stroke>{} : read_strokes(params.constraints.strokes.path.string());
+}
+
 }  // namespace
+
+void check_segment_input(const Surface& s, const std::vector<DirectionData>& data, const SegmentParams& params) {
+    const Topology topology = arcsim::build_topology(s, "segment");
+    check_input(s, topology, data);
+    hard_directions(s, topology, params.constraints, strokes_of(params));
+}
 
 Segmentation segment(const Surface& s, const std::vector<DirectionData>& data, const SegmentParams& params) {
     const Topology topology = arcsim::build_topology(s, "segment");
     check_input(s, topology, data);
-    std::vector<Stroke> strokes;
-    if (!params.constraints.strokes.path.empty()) strokes = read_strokes(params.constraints.strokes.path.string());
+    std::vector<Stroke> strokes = strokes_of(params);
     FieldParams wanted = params.field;
     const auto hard = hard_directions(s, topology, params.constraints, strokes);
     wanted.hard.insert(wanted.hard.end(), hard.begin(), hard.end());

@@ -59,4 +59,8 @@ void visit(Archive& a, SegmentParams& p) {
 /// @throws NumericalError   the field's factorisation failed, or no cut makes a panel a disk
 Segmentation segment(const Surface& s, const std::vector<DirectionData>& data, const SegmentParams& params);
 
+/// What `segment` asks of its input, without the work.
+/// @throws InputError   as `segment`
+void check_segment_input(const Surface& s, const std::vector<DirectionData>& data, const SegmentParams& params);
+
 }  // namespace formwork

@@ -91,6 +91,8 @@ std::vector<std::string> run_pipeline(const FormworkScene& scene, const fs::path
         if (const std::string doubt = doubt_about_up(mesh.surface, mesh.topology, scene.formwork.up); !doubt.empty())
             progress.warning(scene.mesh_file().path.string() + ": " + doubt);
     }
+    const std::size_t cutting = stage_index("segment", 0);
+    if (scene.formwork.segment.field && first <= cutting && cutting <= last) check_field_scene(scene);
     check_reads(table[first], scene, dir);
     const std::string print = scene_fingerprint(scene);
     JsonValue summary = read_summary(dir), finished = read_finished(dir);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "arcsim/base/error.hpp"
 #include "arcsim/base/text.hpp"
 #include "arcsim/mesh/obj_io.hpp"
 #include "formwork/segment/covariance_split.hpp"
@@ -14,6 +15,7 @@
 
 namespace formwork {
 
+using arcsim::InputError;
 using arcsim::JsonValue;
 
 namespace {
@@ -24,15 +26,19 @@ struct SegmentInput {
     std::vector<DirectionData> data;
 };
 
+SegmentInput read_field_input(const FormworkScene& scene) {
+    const SegmentKeys& keys = scene.formwork.segment;
+    BagMesh bag = load_bag_mesh(scene);
+    if (bag.stray_vertices > 0)
+        throw InputError(scene.mesh_file().path.string() + ": " + std::to_string(bag.stray_vertices) +
+                         " vertices belong to no face. Remove unreferenced vertices from a mesh to which /formwork/segment/field belongs.");
+    return {std::move(bag.surface), read_field_file(keys.field->path.string(), bag.topology, keys.directions)};
+}
+
 SegmentInput read_input(const StageContext& context) {
     const SegmentKeys& keys = context.scene.formwork.segment;
+    if (keys.field) return read_field_input(context.scene);
     SegmentInput in;
-    if (keys.field) {
-        in.surface = load_bag_mesh(context.scene).surface;
-        const Topology t = arcsim::build_topology(in.surface);
-        in.data = read_field_file(keys.field->path.string(), t, keys.directions);
-        return in;
-    }
     const bool inflated = context.scene.formwork.panels.from == PanelSource::inflated;
     const std::filesystem::path folder = context.dir / "inflate";
     in.surface = arcsim::read_obj(folder / (inflated ? "inflated.obj" : "rest.obj")).surface();
@@ -100,6 +106,11 @@ JsonValue summary_of(const SegmentInput& in, const Segmentation& s, double wall)
 }
 
 }  // namespace
+
+void check_field_scene(const FormworkScene& scene) {
+    const SegmentInput in = read_field_input(scene);
+    check_segment_input(in.surface, in.data, scene.formwork.segment.layout);
+}
 
 JsonValue run_segment(const StageContext& context) {
     const SegmentInput in = read_input(context);

@@ -28,6 +28,9 @@ struct Stage {
 
 arcsim::JsonValue run_inflate(const StageContext& context);
 arcsim::JsonValue run_segment(const StageContext& context);
+/// The input of a segment stage that starts from a field file: what the stage would refuse, before anything is written.
+/// @throws InputError, also for vertices without faces: a field belongs to the mesh as it is
+void check_field_scene(const FormworkScene& scene);
 arcsim::JsonValue run_panels(const StageContext& context);
 arcsim::JsonValue run_sew(const StageContext& context);
 arcsim::JsonValue run_report(const StageContext& context);

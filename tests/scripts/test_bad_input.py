@@ -30,7 +30,7 @@ def snapshot(folder):
     return {p.relative_to(folder): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
 
 
-def case(name, scene_text, mesh, expected, command=("run",), extra=(), mesh_name="bag.obj"):
+def case(name, scene_text, mesh, expected, command=("run",), extra=(), mesh_name="bag.obj", field=None):
     folder = work / name.replace(" ", "_")
     (folder / "out").mkdir(parents=True)
     (folder / "out" / "summary.json").write_text('{"inflate": {"converged": true}}')
@@ -40,6 +40,8 @@ def case(name, scene_text, mesh, expected, command=("run",), extra=(), mesh_name
         (folder / "bag.json").write_text(scene_text)
     if mesh is not None:
         (folder / mesh_name).write_bytes(mesh if isinstance(mesh, bytes) else mesh.encode())
+    if field is not None:
+        (folder / "field.txt").write_text(field)
     arguments = [str(program), *command, str(folder / "bag.json"), *extra]
     if command[0] != "check":
         arguments += ["-o", str(folder / "out")]
@@ -98,6 +100,16 @@ case("unknown stage", scene(), obj(), ["\"segmnt\" is not a stage", "segment"], 
 case("stage without its files", scene(), obj(), ["is missing", "Run the stages before it"], extra=("--from", "panels"))
 case("obstacles", json.dumps({"cloths": [{"mesh": "bag.obj"}], "obstacles": [{"mesh": "bag.obj"}], "formwork": {}}), obj(), ["obstacles"])
 case("check finds it too", scene(), obj(faces=[(0, 3, 2), *GOOD_F[1:]]), ["bag.obj", "oriented"], command=("check",))
+ALONE = {"segment": {"field": "field.txt"}}   # `formwork segment` on a mesh and a field, without plaster
+LINES = ["0.1 1.2 1.0\n"] * len(GOOD_F)
+SHIFTED = [(x + 1, y, z) for x, y, z in GOOD_V]
+for name, mesh, lines, words in [
+        ("field of wrong length", obj(), LINES[:-1], ["field.txt", "9", "10"]),
+        ("field with NaN", obj(), [*LINES[:3], "nan 1.2 1.0\n", *LINES[4:]], ["field.txt:4"]),
+        ("field on two components", obj(GOOD_V + SHIFTED, GOOD_F + [tuple(i + 8 for i in f) for f in GOOD_F]), LINES * 2, ["2 components"]),
+        ("field on a vertex without faces", obj(GOOD_V + [(0.05, 0.05, 0.05)]), LINES, ["bag.obj", "1 vertices belong to no face", "Remove"]),
+        ("field on a nonmanifold edge", obj(GOOD_V + [(0.05, 0.05, 0.05)], GOOD_F + [(0, 3, 8)]), [*LINES, LINES[0]], ["bag.obj", "edge", "three"])]:
+    case(name, json.dumps({"cloths": [{"mesh": "bag.obj"}], "formwork": ALONE}), mesh, words, command=("segment",), field="".join(lines))
 case("closed mesh", scene(), obj(faces=GOOD_F + [(4, 5, 7), (4, 7, 6)]), ["/formwork/fixed/0/boundary", "closed"])
 
 
