@@ -141,8 +141,12 @@ int main(int argc, char** argv) {
             solver = name == "cholmod" ? SolverKind::cholmod : name == "pcg" ? SolverKind::pcg : SolverKind::mixed;
         } else if (word == "--steps" && i + 1 < argc) {
             steps = std::atoi(argv[++i]);
-        } else {
+        } else if (std::atoi(word.c_str()) > 1) {
             sizes.push_back(std::atoi(word.c_str()));
+        } else {
+            std::fprintf(stderr, "bench_core: %s: expected nodes along a side (21 41 101 161), --steps N, --order amd|metis, --solver mixed|cholmod|pcg\n",
+                         word.c_str());
+            return 2;
         }
     }
     if (sizes.empty()) sizes = {21, 41, 101, 161};

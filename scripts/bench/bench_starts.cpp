@@ -57,13 +57,7 @@ EquilibriumResult row(const EquilibriumProblem& p, const char* start, const std:
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::vector<double> sizes;
-    std::vector<std::string> bags;
-    for (int i = 1; i < argc; ++i)
-        if (std::isdigit(static_cast<unsigned char>(argv[i][0]))) sizes.push_back(std::stod(argv[i]));
-        else bags.emplace_back(argv[i]);
-    if (sizes.empty()) sizes = {10000};
-    if (bags.empty()) bags = {"square:soft", "sock:woven", "teabag:woven", "pillow:woven"};
+    const auto [bags, sizes] = named_cases(argc, argv, {"square:soft", "sock:woven", "teabag:woven", "pillow:woven"}, {10000});
     const WovenFile file;
     std::printf(" %-9s %7s %7s %8s %7s %9s   tolerance %.0e\n", "start", "steps", "factors", "residual", "cpu s", "apart, m", tight);
     for (const std::string& bag : bags)

@@ -48,13 +48,7 @@ double row(EquilibriumProblem p, const char* name, double limit_s, const std::ve
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::vector<double> sizes;
-    std::vector<std::string> bags;
-    for (int i = 1; i < argc; ++i)
-        if (std::isdigit(static_cast<unsigned char>(argv[i][0]))) sizes.push_back(std::stod(argv[i]));
-        else bags.emplace_back(argv[i]);
-    if (sizes.empty()) sizes = {2500, 10000};
-    if (bags.empty()) bags = {"square:soft", "sock:soft", "sock:woven"};
+    const auto [bags, sizes] = named_cases(argc, argv, {"square:soft", "sock:soft", "sock:woven"}, {2500, 10000});
     const WovenFile file;
     std::printf(" %-28s %6s %6s %9s %8s %9s\n", "method", "steps", "factors", "residual", "cpu s", "apart, m");
     for (const std::string& bag : bags)

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -125,6 +126,23 @@ inline EquilibriumProblem make_problem(const std::string& kind, bool woven, doub
         p.flat = weave_frames(p.rest);
     }
     return p;
+}
+
+/// "square:soft sock:woven 10000 40000" on a command line, in any order.
+struct NamedCases {
+    std::vector<std::string> bags;   // KIND:FABRIC
+    std::vector<double> nodes;
+};
+
+/// What the arguments name; where they name no bag, or no size, the given ones.
+inline NamedCases named_cases(int argc, char** argv, std::vector<std::string> bags, std::vector<double> nodes) {
+    NamedCases named;
+    for (int i = 1; i < argc; ++i)
+        if (std::isdigit(static_cast<unsigned char>(argv[i][0]))) named.nodes.push_back(std::stod(argv[i]));
+        else named.bags.emplace_back(argv[i]);
+    if (named.bags.empty()) named.bags = std::move(bags);
+    if (named.nodes.empty()) named.nodes = std::move(nodes);
+    return named;
 }
 
 }  // namespace static_cases
