@@ -1,9 +1,9 @@
 #include "arcsim/mesh/topology.hpp"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
-#include <unordered_map>
+#include <span>
+#include <utility>
 
 #include "arcsim/base/error.hpp"
 
@@ -13,11 +13,6 @@ namespace {
 struct HalfEdge {
     int from, to, face, corner;   // corner: opposite the half-edge
 };
-
-std::uint64_t key(int a, int b) {
-    const auto lo = static_cast<std::uint64_t>(std::min(a, b)), hi = static_cast<std::uint64_t>(std::max(a, b));
-    return lo << 32 | hi;
-}
 
 /// The half-edges of one undirected edge: the first two, and how many there are.
 struct EdgeGroup {
@@ -29,14 +24,25 @@ struct EdgeGroup {
 std::vector<EdgeGroup> group_half_edges(const Surface& s) {
     std::vector<EdgeGroup> groups;
     groups.reserve(s.faces.size() * 3 / 2 + 16);
-    std::unordered_map<std::uint64_t, int> index;
-    index.reserve(s.faces.size() * 2);
+    std::vector<int> start(s.x.size() + 1, 0);   // per lower node: where its edges stand in `at_lower`
+    const auto lower = [&](int f, int k) { return std::min(s.faces[f][k], s.faces[f][(k + 1) % 3]); };
+    for (int f = 0; f < s.n_faces(); ++f)
+        for (int k = 0; k < 3; ++k) ++start[lower(f, k) + 1];
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    std::vector<std::pair<int, int>> at_lower(3 * s.faces.size());   // (higher node, group), edges of one node together
+    std::vector<int> end(start.begin(), start.end() - 1);
     for (int f = 0; f < s.n_faces(); ++f)
         for (int k = 0; k < 3; ++k) {
-            const int a = s.faces[f][(k + 1) % 3], b = s.faces[f][(k + 2) % 3];
-            const auto [it, is_new] = index.emplace(key(a, b), static_cast<int>(groups.size()));
-            if (is_new) groups.emplace_back();
-            EdgeGroup& group = groups[it->second];
+            const int a = s.faces[f][(k + 1) % 3], b = s.faces[f][(k + 2) % 3], lo = std::min(a, b), hi = std::max(a, b);
+            const auto first = at_lower.begin() + start[lo], last = at_lower.begin() + end[lo];
+            const auto known = std::find_if(first, last, [&](const auto& e) { return e.first == hi; });
+            const int g = known == last ? static_cast<int>(groups.size()) : known->second;
+            if (known == last) {
+                *last = {hi, g};
+                ++end[lo];
+                groups.emplace_back();
+            }
+            EdgeGroup& group = groups[g];
             if (group.size < 2) group.half[group.size] = {a, b, f, k};
             ++group.size;
         }
@@ -44,7 +50,7 @@ std::vector<EdgeGroup> group_half_edges(const Surface& s) {
 }
 
 /// The faces of `node` as one counter-clockwise fan; shorter than `around` when there are several fans.
-std::vector<int> order_fan(const Surface& s, const Topology& t, int node, const std::vector<int>& around) {
+std::vector<int> order_fan(const Surface& s, const Topology& t, int node, std::span<const int> around) {
     const auto corner_of = [&](int f) {
         return static_cast<int>(std::find(s.faces[f].begin(), s.faces[f].end(), node) - s.faces[f].begin());
     };
@@ -112,20 +118,18 @@ void find_components(const Surface& s, Topology& t) {
 }
 
 void find_boundary_loops(Topology& t) {
-    std::unordered_map<int, int> next;
-    std::vector<int> starts;
+    std::vector<int> next(t.component.size(), -1), starts;   // next: node after it on the boundary, until a loop has passed
     for (const Edge& e : t.edges)
         if (e.is_boundary()) {
             next[e.node[0]] = e.node[1];
             starts.push_back(e.node[0]);
         }
-    std::unordered_map<int, bool> seen;
     for (int start : starts) {
-        if (seen[start]) continue;
+        if (next[start] < 0) continue;
         std::vector<int> loop;
-        for (int v = start; !seen[v]; v = next.at(v)) {
-            seen[v] = true;
+        for (int v = start; next[v] >= 0;) {
             loop.push_back(v);
+            v = std::exchange(next[v], -1);
         }
         t.boundary_loops.push_back(std::move(loop));
     }
@@ -147,11 +151,16 @@ TopologyDefects examine(const Surface& s, Topology& t) {
         const Triangle& c = s.faces[f];
         if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) d.repeated_corner_faces.push_back(f);
     }
-    std::vector<std::vector<int>> around(s.x.size());
+    std::vector<int> start(s.x.size() + 1, 0), corners(3 * s.faces.size());   // faces around each node
+    for (const Triangle& c : s.faces)
+        for (int v : c) ++start[v + 1];
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    std::vector<int> fill(start.begin(), start.end() - 1);
     for (int f = 0; f < s.n_faces(); ++f)
-        for (int v : s.faces[f]) around[v].push_back(f);
+        for (int v : s.faces[f]) corners[fill[v]++] = f;
+    const auto around = [&](int v) { return std::span<const int>(corners.data() + start[v], corners.data() + start[v + 1]); };
     for (int v = 0; v < s.n_nodes(); ++v)
-        if (around[v].empty()) d.isolated_nodes.push_back(v);
+        if (around(v).empty()) d.isolated_nodes.push_back(v);
     if (!d.repeated_corner_faces.empty()) return d;
 
     const auto groups = group_half_edges(s);
@@ -167,9 +176,9 @@ TopologyDefects examine(const Surface& s, Topology& t) {
     t = connect(s, groups);
     t.node_faces.resize(s.x.size());
     for (int v = 0; v < s.n_nodes(); ++v) {
-        if (around[v].empty()) continue;
-        t.node_faces[v] = order_fan(s, t, v, around[v]);
-        if (t.node_faces[v].size() < around[v].size()) d.nonmanifold_nodes.push_back(v);
+        if (around(v).empty()) continue;
+        t.node_faces[v] = order_fan(s, t, v, around(v));
+        if (t.node_faces[v].size() < around(v).size()) d.nonmanifold_nodes.push_back(v);
     }
     return d;
 }
@@ -201,9 +210,13 @@ Topology build_topology(const Surface& s, const std::string& source_name) {
              " joins parts of the surface that share no edge there (" +
              std::to_string(d.nonmanifold_nodes.size()) + " such nodes). Split the node.");
 
+    find_components_and_loops(s, t);
+    return t;
+}
+
+void find_components_and_loops(const Surface& s, Topology& t) {
     find_components(s, t);
     find_boundary_loops(t);
-    return t;
 }
 
 }  // namespace arcsim

@@ -57,4 +57,7 @@ TopologyDefects find_defects(const Surface& s);
 /// @throws InputError naming the first defect and how to mend it
 Topology build_topology(const Surface& s, const std::string& source_name = "mesh");
 
+/// The last step of it alone, for a topology whose edges and fans are known: components and boundary loops.
+void find_components_and_loops(const Surface& s, Topology& t);
+
 }  // namespace arcsim

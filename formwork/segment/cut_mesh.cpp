@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <map>
+#include <numeric>
 
 namespace formwork {
 
@@ -27,31 +28,69 @@ CutMesh::CutMesh(const Surface& input) : input_(&input), surface_(input), source
             source_[t[k]] = {f, {k == 0 ? 1. : 0., k == 1 ? 1. : 0., k == 2 ? 1. : 0.}};
         }
     }
-    number_edges();
+    join_faces();
 }
 
 CutMesh::CutMesh(const Surface& input, Surface cut, std::vector<SurfacePoint> source, std::vector<int> source_face)
     : input_(&input), surface_(std::move(cut)), source_(std::move(source)), source_face_(std::move(source_face)),
       split_from_(surface_.faces.size(), -1) {
-    number_edges();
+    join_faces();
 }
 
-void CutMesh::number_edges() {
-    left_.reserve(3 * surface_.faces.size());
+void CutMesh::join_faces() {
+    const std::size_t n = surface_.x.size();
+    side_.assign(surface_.faces.size(), {});
+    face_at_.assign(n, -1);
+    std::vector<int> start(n + 1, 0);   // edges by their lower node
+    const auto lower = [](const arcsim::Triangle& t, int k) { return std::min(t[k], t[(k + 1) % 3]); };
+    for (const arcsim::Triangle& t : surface_.faces)
+        for (int k = 0; k < 3; ++k) ++start[lower(t, k) + 1];
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    struct Open {
+        int higher, face, k;
+    };
+    std::vector<Open> open(3 * surface_.faces.size());
+    std::vector<int> end(start.begin(), start.end() - 1);
     for (int f = 0; f < surface_.n_faces(); ++f) {
         const arcsim::Triangle& t = surface_.faces[f];
-        for (int k = 0; k < 3; ++k) left_.set(t[k], t[(k + 1) % 3], f);
+        for (int k = 0; k < 3; ++k) {
+            if (face_at_[t[k]] < 0) face_at_[t[k]] = f;
+            const int lo = lower(t, k), hi = std::max(t[k], t[(k + 1) % 3]);
+            const auto last = open.begin() + end[lo];
+            const auto other = std::find_if(open.begin() + start[lo], last, [&](const Open& o) { return o.higher == hi; });
+            if (other == last) {
+                *last = {hi, f, k};
+                ++end[lo];
+            } else {
+                side_[f][k].across = other->face;
+                side_[other->face][other->k].across = f;
+            }
+        }
     }
 }
 
-int CutMesh::face_left(int a, int b) const {
-    const int* face = left_.find(a, b);
-    return face ? *face : -1;
+CutMesh::Corner CutMesh::side_left(int a, int b) const {
+    const int first = face_at_[a];
+    for (int turn = 0; turn < 2; ++turn)   // counter-clockwise about a, then clockwise if a rim stopped us
+        for (int f = first; f >= 0;) {
+            const arcsim::Triangle& t = surface_.faces[f];
+            const int k = t[0] == a ? 0 : t[1] == a ? 1 : 2;
+            if (t[(k + 1) % 3] == b) return {f, k};
+            f = side_[f][turn == 0 ? (k + 2) % 3 : k].across;
+            if (f == first) return {};
+        }
+    return {};
 }
 
-void CutMesh::set_face(int f, const arcsim::Triangle& t) {
-    surface_.faces[f] = t;
-    for (int k = 0; k < 3; ++k) left_.set(t[k], t[(k + 1) % 3], f);
+CutMesh::Mark CutMesh::mark_of(int a, int b) const {
+    Corner c = side_left(a, b);
+    if (c.face < 0) c = side_left(b, a);
+    return c.face < 0 ? Mark::none : side_[c.face][c.k].mark;
+}
+
+void CutMesh::set_mark(int a, int b, Mark mark) {
+    for (const Corner c : {side_left(a, b), side_left(b, a)})
+        if (c.face >= 0) side_[c.face][c.k].mark = mark;
 }
 
 SurfacePoint CutMesh::locate(int face, const Vector3d& x) const {
@@ -62,52 +101,43 @@ SurfacePoint CutMesh::locate(int face, const Vector3d& x) const {
     return p;
 }
 
-void CutMesh::split_face(int f, int a, int b, int m) {
-    const arcsim::Triangle& t = surface_.faces[f];
-    const int c = t[0] + t[1] + t[2] - a - b;
-    const int g = surface_.n_faces();
+/// The face a -> b -> c becomes a -> m -> c and a new one, m -> b -> c. @returns the new one
+int CutMesh::split_side(Corner side, int m) {
+    const auto [f, k] = side;
+    const int g = surface_.n_faces(), k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+    const arcsim::Triangle t = surface_.faces[f];
+    const int a = t[k], b = t[k1], c = t[k2];
+    const std::array<Side, 3> old = side_[f];
     surface_.faces.push_back({m, b, c});
     source_face_.push_back(source_face_[f]);
     split_from_.push_back(f);
-    set_face(g, {m, b, c});
-    set_face(f, {a, m, c});
+    side_.push_back({{{-1, old[k].mark}, old[k1], {f, Mark::none}}});
+    surface_.faces[f] = {a, m, c};
+    side_[f] = {{{-1, old[k].mark}, {g, Mark::none}, old[k2]}};
+    if (const int beyond = old[k1].across; beyond >= 0)
+        for (int j = 0; j < 3; ++j)
+            if (surface_.faces[beyond][j] == c && surface_.faces[beyond][(j + 1) % 3] == b) side_[beyond][j].across = g;
+    face_at_[b] = g;
+    face_at_[m] = f;
+    return g;
 }
 
 int CutMesh::split_edge(int a, int b, double t) {
     const int m = surface_.n_nodes();
-    const int f = face_left(a, b), g = face_left(b, a);
-    assert(f >= 0 || g >= 0);
+    const Corner left = side_left(a, b), right = side_left(b, a);
+    assert(left.face >= 0 || right.face >= 0);
     surface_.x.push_back((1 - t) * surface_.x[a] + t * surface_.x[b]);
-    source_.push_back(locate(f >= 0 ? f : g, surface_.x[m]));
-    left_.erase(a, b);
-    left_.erase(b, a);
-    if (f >= 0) split_face(f, a, b, m);
-    if (g >= 0) split_face(g, b, a, m);
-    if (is_seam(a, b)) {
-        const bool given = is_given(a, b);
-        unmark_seam(a, b);
-        mark_seam(a, m, given);
-        mark_seam(m, b, given);
+    source_.push_back(locate(left.face >= 0 ? left.face : right.face, surface_.x[m]));
+    face_at_.push_back(-1);
+    const int left_beyond = left.face >= 0 ? split_side(left, m) : -1;     // at b; the face itself stays at a
+    const int right_beyond = right.face >= 0 ? split_side(right, m) : -1;   // at a; the face itself stays at b
+    if (left_beyond >= 0 && right_beyond >= 0) {   // split faces begin with the edge that was split
+        side_[left.face][0].across = right_beyond;
+        side_[left_beyond][0].across = right.face;
+        side_[right.face][0].across = left_beyond;
+        side_[right_beyond][0].across = left.face;
     }
     return m;
-}
-
-bool CutMesh::flip(int a, int b) {
-    const int f = face_left(a, b), g = face_left(b, a);
-    if (f < 0 || g < 0 || is_seam(a, b)) return false;
-    const arcsim::Triangle &s = surface_.faces[f], &t = surface_.faces[g];
-    const int c = s[0] + s[1] + s[2] - a - b, d = t[0] + t[1] + t[2] - a - b;
-    if (face_left(c, d) >= 0 || face_left(d, c) >= 0) return false;
-    left_.erase(a, b);
-    left_.erase(b, a);
-    set_face(f, {c, a, d});
-    set_face(g, {d, b, c});
-    return true;
-}
-
-void CutMesh::move(int node, const SurfacePoint& where, const Vector3d& x) {
-    surface_.x[node] = x;
-    source_[node] = where;
 }
 
 std::vector<int> CutMesh::insert(const Curve& curve) {

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <vector>
 
-#include "formwork/segment/edge_map.hpp"
 #include "formwork/segment/segmentation.hpp"
 
 namespace formwork {
@@ -38,18 +38,20 @@ public:
     /// The face that face f was split off from; -1: a face of the input.
     int split_from(int f) const { return split_from_[f]; }
 
-    /// The face to the left of the directed edge a -> b; -1: none.
-    int face_left(int a, int b) const;
+    /// The face on the other side of face f's edge from its corner k to the next; -1: rim.
+    int across(int f, int k) const { return side_[f][k].across; }
+    bool is_seam_at(int f, int k) const { return side_[f][k].mark != Mark::none; }
+    bool is_given_at(int f, int k) const { return side_[f][k].mark == Mark::given; }
+
+    /// The same by an edge's nodes. The face to the left of the directed edge a -> b; -1: none.
+    int face_left(int a, int b) const { return side_left(a, b).face; }
     bool is_rim(int a, int b) const { return (face_left(a, b) < 0) != (face_left(b, a) < 0); }
-    bool is_seam(int a, int b) const { return seams_.contains(std::min(a, b), std::max(a, b)); }
+    bool is_seam(int a, int b) const { return mark_of(a, b) != Mark::none; }
     bool is_border(int a, int b) const { return is_seam(a, b) || is_rim(a, b); }
     /// A seam that was asked for: the layout never removes it.
-    bool is_given(int a, int b) const {
-        const int* given = seams_.find(std::min(a, b), std::max(a, b));
-        return given && *given;
-    }
-    void mark_seam(int a, int b, bool given = false) { seams_.set(std::min(a, b), std::max(a, b), given); }
-    void unmark_seam(int a, int b) { seams_.erase(std::min(a, b), std::max(a, b)); }
+    bool is_given(int a, int b) const { return mark_of(a, b) == Mark::given; }
+    void mark_seam(int a, int b, bool given = false) { set_mark(a, b, given ? Mark::given : Mark::seam); }
+    void unmark_seam(int a, int b) { set_mark(a, b, Mark::none); }
 
     /// Splits the faces along the curve and returns its nodes. The pieces are not marked.
     std::vector<int> insert(const Curve& curve);
@@ -58,24 +60,29 @@ public:
 
     /// Puts a node inside the edge a-b, at a + t (b - a); the faces at the edge become two each.
     int split_edge(int a, int b, double t);
-    /// Turns the edge a-b inside its two faces; false when it is a border or the turned edge exists already.
-    bool flip(int a, int b);
-    /// Moves a node to another point of the input surface.
-    void move(int node, const SurfacePoint& where, const Vector3d& x);
-    void set_source_face(int face, int source) { source_face_[face] = source; }
 
 private:
-    void number_edges();
-    void set_face(int f, const arcsim::Triangle& t);
-    void split_face(int f, int a, int b, int m);
+    enum class Mark : std::uint8_t { none, seam, given };
+    struct Side {   // an edge seen from one of its faces
+        int across = -1;
+        Mark mark = Mark::none;
+    };
+    struct Corner {   // of a face; also the edge from there to the next corner
+        int face = -1, k = 0;
+    };
+    void join_faces();
+    Corner side_left(int a, int b) const;
+    Mark mark_of(int a, int b) const;
+    void set_mark(int a, int b, Mark mark);
+    int split_side(Corner side, int m);
     SurfacePoint locate(int face, const Vector3d& x) const;
 
     const Surface* input_;
     Surface surface_;
     std::vector<SurfacePoint> source_;
     std::vector<int> source_face_, split_from_;
-    EdgeMap left_;    // directed edge -> face
-    EdgeMap seams_;   // edge, lower node first -> was it asked for
+    std::vector<std::array<Side, 3>> side_;   // per face; [k] from corner k to the next
+    std::vector<int> face_at_;                // per node: one of its faces
 };
 
 /// Barycentric coordinates of the point of face f's plane nearest to x; they sum to 1 and may be negative.

@@ -19,6 +19,13 @@ int corner_of(const arcsim::Triangle& t, int v) {
     return t[0] == v ? 0 : t[1] == v ? 1 : 2;
 }
 
+/// atan(t) for |t| <= 1, within 1e-5 rad [Abramowitz and Stegun 1964, 4.4.47]: costs are kept in single precision, and this is
+/// asked for every pair of samples.
+double small_angle(double t) {
+    const double q = t * t;
+    return t * (0.9998660 + q * (-0.3302995 + q * (0.1801410 + q * (-0.0851330 + q * 0.0208351))));
+}
+
 /// Stretch along a direction at angle `a` to the first principal direction.
 double stretch_along(const DirectionData& d, double a) {
     const double c = d.s1 * std::cos(a), s = d.s2 * std::sin(a);
@@ -108,8 +115,7 @@ void FieldGraph::add_face(const Surface& s, const Topology& t, const SurfaceFiel
         if (p.side >= 3) {
             const int k = p.side - 3;
             const Vector2d edge = corner[(k + 2) % 3] - corner[(k + 1) % 3];
-            const double angle = std::atan2(std::abs(edge.x() * d.y() - edge.y() * d.x()), std::abs(edge.dot(d)));
-            return angle > least_landing;
+            return std::abs(edge.x() * d.y() - edge.y() * d.x()) > std::tan(least_landing) * std::abs(edge.dot(d));
         }
         const Vector2d edge = corner[(p.side + 1) % 3] - corner[p.side];
         const double angle = fan_angle_[f][p.side] + std::atan2(edge.x() * d.y() - edge.y() * d.x(), edge.dot(d));
@@ -124,6 +130,7 @@ void FieldGraph::add_face(const Surface& s, const Topology& t, const SurfaceFiel
         else
             raw.push_back({4 * p.sample + modulo4(k - p.offset), arc});
     };
+    const Vector2d arm(std::cos(field.theta[f]), std::sin(field.theta[f]));
     const int spread = cost.theta_max > quarter_turn / 2 + 1e-9 ? 1 : 0;
     std::array<double, 2> stretch;   // along the arms; opposite ones are alike
     for (int k = 0; k < 2; ++k) stretch[k] = stretch_along(field.data[f], field.theta[f] + k * quarter_turn - field.data[f].theta);
@@ -133,10 +140,12 @@ void FieldGraph::add_face(const Surface& s, const Topology& t, const SurfaceFiel
             if (!may_join(p, q)) continue;
             const Vector2d d = q.x - p.x;
             if (!lands_well(p, d) || !lands_well(q, -d)) continue;
-            const double angle = std::atan2(d.y(), d.x()) - field.theta[f], length = d.norm();
-            const int nearest = nearest_quarters(angle);
+            const double along = arm.dot(d), across = arm.x() * d.y() - arm.y() * d.x(), length = d.norm();
+            const bool is_along = std::abs(along) >= std::abs(across);
+            const int nearest = is_along ? (along > 0 ? 0 : 2) : across > 0 ? 1 : 3;
+            const double least_drift = small_angle(is_along ? across / along : -along / across);
             for (int k = nearest - spread; k <= nearest + spread; ++k) {
-                const double drift = std::remainder(angle - k * quarter_turn, 4 * quarter_turn);
+                const double drift = least_drift - (k - nearest) * quarter_turn;
                 if (std::abs(drift) > cost.theta_max + 1e-9) continue;
                 const double r = drift / cost.theta_max;
                 const double c = length / stretch[k & 1] * (1 + cost.alpha * r * r);

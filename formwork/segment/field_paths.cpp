@@ -4,6 +4,7 @@
 #include <limits>
 #include <queue>
 #include <unordered_map>
+#include <utility>
 
 namespace formwork {
 namespace {
@@ -15,7 +16,7 @@ using Queue = std::priority_queue<Item, std::vector<Item>, std::greater<>>;
 }  // namespace
 
 BorderPaths::BorderPaths(const FieldGraph& graph, const std::vector<double>& landing)
-    : graph_(graph), cost_(graph.n_nodes(), infinite), next_(graph.n_nodes(), -1) {
+    : graph_(graph), cost_(graph.n_nodes(), infinite), next_(graph.n_nodes(), -1), met_by_(graph.n_samples(), 0) {
     Queue queue;
     for (int i = 0; i < graph.n_samples(); ++i) {
         if (!graph.is_border(i) || !(landing[i] < infinite)) continue;
@@ -46,9 +47,9 @@ Path BorderPaths::walk(int node) const {
 std::optional<Path> BorderPaths::join(const Path& back, const Path& forth) const {
     Path p{{back.samples.rbegin(), back.samples.rend()}, back.cost + forth.cost};
     p.samples.insert(p.samples.end(), forth.samples.begin() + 1, forth.samples.end());
-    std::vector<int> sorted = p.samples;
-    std::sort(sorted.begin(), sorted.end());
-    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return {};
+    ++n_joined_;
+    for (int i : p.samples)
+        if (std::exchange(met_by_[i], n_joined_) == n_joined_) return {};
     return p;
 }
 
@@ -58,10 +59,20 @@ std::optional<Path> BorderPaths::through(int sample, int layer) const {
     return join(walk(FieldGraph::opposite(node)), walk(node));
 }
 
-std::optional<Path> BorderPaths::from_port(const FieldGraph::Port& p) const {
+const FieldGraph::Arc* BorderPaths::best_arc(const FieldGraph::Port& p) const {
     const FieldGraph::Arc* best = nullptr;
     for (const auto& a : p.arcs)
         if (cost_[a.to] < infinite && (!best || a.cost + cost_[a.to] < best->cost + cost_[best->to])) best = &a;
+    return best;
+}
+
+double BorderPaths::cost(const FieldGraph::Port& p) const {
+    const FieldGraph::Arc* best = best_arc(p);
+    return best ? best->cost + cost_[best->to] : infinite;
+}
+
+std::optional<Path> BorderPaths::from_port(const FieldGraph::Port& p) const {
+    const FieldGraph::Arc* best = best_arc(p);
     if (!best) return {};
     Path walked = walk(best->to);
     walked.samples.insert(walked.samples.begin(), p.vertex);

@@ -25,17 +25,22 @@ public:
     /// The curve through a sample along layers `layer` and `layer + 2`; nothing when one of them does not
     /// arrive, or when the curve meets itself.
     std::optional<Path> through(int sample, int layer) const;
+    /// The cost of leaving a singular vertex by a port; infinite when that way does not arrive.
+    double cost(const FieldGraph::Port& p) const;
     /// The curve from border to border through two ports of one singular vertex.
     std::optional<Path> through_ports(const FieldGraph::Port& p, const FieldGraph::Port& q) const;
 
 private:
     Path walk(int node) const;
     std::optional<Path> join(const Path& back, const Path& forth) const;
+    const FieldGraph::Arc* best_arc(const FieldGraph::Port& p) const;
     std::optional<Path> from_port(const FieldGraph::Port& p) const;
 
     const FieldGraph& graph_;
     std::vector<float> cost_;
     std::vector<int> next_;
+    mutable std::vector<int> met_by_;   // per sample: number of the last joined curve that ran through it
+    mutable int n_joined_ = 0;
 };
 
 /// The cheapest closed curve through a vertex along a layer. @param limit  give up beyond this cost

@@ -71,11 +71,11 @@ void Layout::relabel(int panel) {
         panel_[seed] = id;
         stack.assign(1, seed);
         while (!stack.empty()) {
-            const arcsim::Triangle t = cut_.surface().faces[stack.back()];
+            const int f = stack.back();
             stack.pop_back();
             for (int k = 0; k < 3; ++k) {
-                const int a = t[k], b = t[(k + 1) % 3], g = cut_.face_left(b, a);
-                if (g < 0 || panel_[g] >= 0 || cut_.is_seam(a, b)) continue;
+                const int g = cut_.across(f, k);
+                if (g < 0 || panel_[g] >= 0 || cut_.is_seam_at(f, k)) continue;
                 panel_[g] = id;
                 stack.push_back(g);
             }

@@ -84,7 +84,8 @@ private:
         double excess = 0;         // of the pieces together
         bool is_allowed = false;   // disks with few corners
     };
-    std::vector<Trial> try_splits(const PanelPatch& patch, const PanelQuality& q, SplitRules rules, int count,
+    static Curve on_cut(const PanelPatch& patch, Curve curve);
+    std::vector<Trial> try_splits(const PanelPatch& patch, const PanelQuality& q, int count,
                                   std::vector<CandidateCurve>* all = nullptr) const;
     void measure_flat(Trial& trial) const;
     bool refine(int most_panels);

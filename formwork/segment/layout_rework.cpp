@@ -30,7 +30,7 @@ double Layout::cost() {
         area += arcsim::face_area(s, f);
         for (int k = 0; k < 3; ++k) {
             const int a = s.faces[f][k], b = s.faces[f][(k + 1) % 3];
-            if (a < b && cut_.is_seam(a, b)) length += (s.x[a] - s.x[b]).norm();
+            if (a < b && cut_.is_seam_at(f, k)) length += (s.x[a] - s.x[b]).norm();
         }
     }
     for (int p = 0; p < static_cast<int>(panels_.size()); ++p)
@@ -96,7 +96,8 @@ bool Layout::rework(const std::vector<int>& group, double& work_left) {
     if (patch.is_disk()) {
         SplitRules rules = rules_;
         rules.spacing = far_apart * std::sqrt(area);
-        for (Trial& t : try_splits(patch, quality(a), rules, first_cuts)) cuts.push_back(std::move(t.curve));
+        rules.calibration = calibration_of(quality(a));
+        for (const Split& s : best_splits(patch, field_on(patch), rules, first_cuts)) cuts.push_back(on_cut(patch, s.curve));
     } else {
         cuts.emplace_back();
     }

@@ -7,19 +7,24 @@
 
 namespace formwork {
 
-std::vector<Layout::Trial> Layout::try_splits(const PanelPatch& patch, const PanelQuality& q, SplitRules rules, int count,
+Curve Layout::on_cut(const PanelPatch& patch, Curve curve) {
+    for (CurvePoint& p : curve) {
+        p.a = patch.node[p.a];
+        if (p.b >= 0) p.b = patch.node[p.b];
+    }
+    return curve;
+}
+
+std::vector<Layout::Trial> Layout::try_splits(const PanelPatch& patch, const PanelQuality& q, int count,
                                               std::vector<CandidateCurve>* all) const {
     std::vector<Trial> trials;
+    SplitRules rules = rules_;
     rules.calibration = calibration_of(q);
     for (const Split& split : best_splits(patch, field_on(patch), rules, count, all)) {
         Trial trial;
-        trial.curve = split.curve;
+        trial.curve = on_cut(patch, split.curve);
         trial.length = split.length;
         trial.is_allowed = true;
-        for (CurvePoint& p : trial.curve) {
-            p.a = patch.node[p.a];
-            if (p.b >= 0) p.b = patch.node[p.b];
-        }
         std::vector<PanelPatch> pieces = split_pieces(patch, split.curve);
         if (pieces.empty()) continue;
         if (q.is_disk) {
@@ -50,13 +55,9 @@ bool Layout::split(int panel, bool anyhow) {
     if (anyhow) {
         const auto found = plain_split(patch, field_on(patch), rules_);
         if (!found) return false;
-        curve = found->curve;
-        for (CurvePoint& p : curve) {
-            p.a = patch.node[p.a];
-            if (p.b >= 0) p.b = patch.node[p.b];
-        }
+        curve = on_cut(patch, found->curve);
     } else {
-        const auto trials = try_splits(patch, quality(panel), rules_, 3, keeps_candidates_ ? &candidates_ : nullptr);
+        const auto trials = try_splits(patch, quality(panel), 3, keeps_candidates_ ? &candidates_ : nullptr);
         if (trials.empty()) return false;
         const double before = excess(quality(panel));
         const auto value = [&](const Trial& t) { return (t.is_allowed ? 1 : 0.1) * (before - t.excess); };
@@ -104,11 +105,11 @@ std::map<std::pair<int, int>, Layout::Border> Layout::borders() const {
     for (int f = 0; f < s.n_faces(); ++f)
         for (int k = 0; k < 3; ++k) {
             const int i = s.faces[f][k], j = s.faces[f][(k + 1) % 3];
-            if (i > j || !cut_.is_seam(i, j)) continue;
-            const int p = panel_[f], q = panel_[cut_.face_left(j, i)];
+            if (i > j || !cut_.is_seam_at(f, k)) continue;
+            const int p = panel_[f], q = panel_[cut_.across(f, k)];
             if (panels_[p].frozen || panels_[q].frozen) continue;
             Border& border = all[std::minmax(p, q)];
-            border.is_given = border.is_given || cut_.is_given(i, j);
+            border.is_given = border.is_given || cut_.is_given_at(f, k);
             border.length += (s.x[i] - s.x[j]).norm();
             border.edges.emplace_back(i, j);
         }
@@ -179,7 +180,7 @@ bool Layout::resplit(int a, int b, const Border& border) {
     if (!patch.is_disk()) return false;
     const PanelQuality &qa = quality(a), &qb = quality(b);
     const double scale = std::sqrt(calibration_of(qa) * calibration_of(qb));
-    auto trials = try_splits(patch, look_at(patch, rules_, scale), rules_, 3);
+    auto trials = try_splits(patch, look_at(patch, rules_, scale), 3);
     const double old_excess = excess(qa) + excess(qb);
     const double length_weight = 0.05 * std::sqrt(patch.area());   // m² of excess per m of seam
     const double old_cost = old_excess + length_weight * border.length;

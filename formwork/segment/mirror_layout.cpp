@@ -43,10 +43,10 @@ Part take_part(const CutMesh& cut, const std::vector<char>& kept, const std::vec
     for (auto& on : part.on_plane) on.assign(part.mesh.surface.x.size(), 0);
     for (int f = 0; f < s.n_faces(); ++f)
         for (int k = 0; k < 3; ++k) {
-            const int a = s.faces[f][k], b = s.faces[f][(k + 1) % 3], g = cut.face_left(b, a);
+            const int a = s.faces[f][k], b = s.faces[f][(k + 1) % 3], g = cut.across(f, k);
             if (!kept[f]) continue;
             if (g < 0) part.on_rim[number[a]] = part.on_rim[number[b]] = 1;
-            if (cut.is_seam(a, b)) part.seams.emplace_back(number[a], number[b]);
+            if (cut.is_seam_at(f, k)) part.seams.emplace_back(number[a], number[b]);
             if (g < 0 || kept[g]) continue;
             for (std::size_t p = 0; p < planes.size(); ++p)
                 if (side(f, p) != side(g, p)) part.on_plane[p][number[a]] = part.on_plane[p][number[b]] = 1;

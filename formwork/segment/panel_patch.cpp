@@ -9,11 +9,6 @@
 namespace formwork {
 namespace {
 
-int find_root(std::vector<int>& parent, int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
-
 int corner_of(const arcsim::Triangle& t, int node) {
     return t[0] == node ? 0 : t[1] == node ? 1 : 2;
 }
@@ -21,38 +16,6 @@ int corner_of(const arcsim::Triangle& t, int node) {
 double corner_angle_at(const Surface& s, const arcsim::Triangle& t, int k) {
     const Vector3d a = s.x[t[(k + 1) % 3]] - s.x[t[k]], b = s.x[t[(k + 2) % 3]] - s.x[t[k]];
     return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
-/// Marks local nodes where the number of borders that meet, or their kind, changes.
-void find_junctions(const CutMesh& cut, PanelPatch& p) {
-    // Borders at a node of the cut mesh, seen from this patch: each seam edge and rim edge of its faces. A node
-    // where the patch's two borders are one seam and one rim, or where another seam leaves on the far side, is
-    // a junction; the far side is looked at by walking round the node in the cut mesh.
-    p.junction.assign(p.node.size(), 0);
-    p.given.assign(p.node.size(), 0);
-    for (int v = 0; v < p.surface.n_nodes(); ++v) {
-        if (!p.topology.is_boundary_node(v)) continue;
-        const int node = p.node[v];
-        int seams = 0, rims = 0, given = 0;
-        const int first = p.face[p.topology.node_faces[v].front()];
-        int f = first;
-        for (int turn = 0; turn < 2; ++turn) {   // counter-clockwise, then clockwise if a rim stopped us
-            int steps = 0;
-            do {
-                const arcsim::Triangle& t = cut.surface().faces[f];
-                const int k = corner_of(t, node);
-                const int other = turn == 0 ? t[(k + 2) % 3] : t[(k + 1) % 3];
-                const int next = turn == 0 ? cut.face_left(node, other) : cut.face_left(other, node);
-                if (cut.is_seam(node, other)) ++seams, given += cut.is_given(node, other);
-                if (next < 0) ++rims;
-                f = next;
-            } while (f >= 0 && f != first && ++steps < 1000);
-            if (f == first) break;
-            f = first;
-        }
-        p.given[v] = seams > 0 && given == seams;
-        p.junction[v] = seams >= 3 || (seams >= 1 && rims >= 1) || seams == 1;
-    }
 }
 
 }  // namespace
@@ -66,11 +29,11 @@ std::vector<int> label_panels(const CutMesh& cut, int& n_panels) {
         panel[seed] = n_panels;
         stack.assign(1, seed);
         while (!stack.empty()) {
-            const arcsim::Triangle& t = s.faces[stack.back()];
+            const int f = stack.back();
             stack.pop_back();
             for (int k = 0; k < 3; ++k) {
-                const int a = t[k], b = t[(k + 1) % 3], g = cut.face_left(b, a);
-                if (g < 0 || panel[g] >= 0 || cut.is_seam(a, b)) continue;
+                const int g = cut.across(f, k);
+                if (g < 0 || panel[g] >= 0 || cut.is_seam_at(f, k)) continue;
                 panel[g] = n_panels;
                 stack.push_back(g);
             }
@@ -84,45 +47,6 @@ std::vector<std::vector<int>> panel_faces(const std::vector<int>& panel, int n_p
     std::vector<std::vector<int>> faces(n_panels);
     for (std::size_t f = 0; f < panel.size(); ++f) faces[panel[f]].push_back(static_cast<int>(f));
     return faces;
-}
-
-PanelPatch extract_patch(const CutMesh& cut, const std::vector<int>& faces) {
-    const Surface& s = cut.surface();
-    PanelPatch p;
-    p.face = faces;
-    std::vector<int> local(s.faces.size(), -1);
-    for (std::size_t i = 0; i < faces.size(); ++i) local[faces[i]] = static_cast<int>(i);
-    std::vector<int> parent(3 * faces.size());   // corners, joined over inner edges that are no seams
-    std::iota(parent.begin(), parent.end(), 0);
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-        const arcsim::Triangle& t = s.faces[faces[i]];
-        for (int k = 0; k < 3; ++k) {
-            const int a = t[k], b = t[(k + 1) % 3];
-            const int left = cut.face_left(b, a), there_face = left < 0 ? -1 : local[left];
-            if (there_face < 0 || cut.is_seam(a, b)) continue;
-            const arcsim::Triangle& u = s.faces[left];
-            for (int end : {a, b}) {
-                const int here = find_root(parent, 3 * static_cast<int>(i) + corner_of(t, end));
-                const int there = find_root(parent, 3 * there_face + corner_of(u, end));
-                parent[std::max(here, there)] = std::min(here, there);
-            }
-        }
-    }
-    std::vector<int> number(parent.size(), -1);
-    p.surface.faces.resize(faces.size());
-    for (std::size_t i = 0; i < faces.size(); ++i)
-        for (int k = 0; k < 3; ++k) {
-            const int root = find_root(parent, 3 * static_cast<int>(i) + k);
-            if (number[root] < 0) {
-                number[root] = p.surface.n_nodes();
-                p.node.push_back(s.faces[faces[i]][k]);
-                p.surface.x.push_back(s.x[p.node.back()]);
-            }
-            p.surface.faces[i][k] = number[root];
-        }
-    p.topology = arcsim::build_topology(p.surface, "panel");
-    find_junctions(cut, p);
-    return p;
 }
 
 double PanelPatch::border_length() const {

@@ -14,7 +14,7 @@ namespace {
 constexpr double snap_reach = 0.22;   // of an edge: nearer points move onto the vertex
 constexpr int smoothing_rounds = 10;
 constexpr int trial_cells = 400;      // of the coarse panel on which candidates are compared
-constexpr std::size_t most_port_pairs = 24;
+constexpr int most_port_pairs = 24;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 struct Candidate {
@@ -303,13 +303,23 @@ private:
         if (!order.empty()) first.push_back(order.front());
         for (int v : spread(rules_.trials, first)) try_seed(v);
         const auto& ports = graph_.ports();
-        std::vector<Path> pairs;
+        struct Pair {
+            double cost;
+            std::size_t i, j;
+        };
+        std::vector<Pair> pairs;
         for (std::size_t i = 0; i < ports.size(); ++i)
             for (std::size_t j = i + 1; j < ports.size() && ports[j].vertex == ports[i].vertex; ++j)
-                if (auto path = paths.through_ports(ports[i], ports[j])) pairs.push_back(std::move(*path));
-        std::stable_sort(pairs.begin(), pairs.end(), [](const Path& a, const Path& b) { return a.cost > b.cost; });
-        for (std::size_t i = 0; i < std::min(pairs.size(), most_port_pairs); ++i)   // the long ones divide most
-            try_path(pairs[i], CandidateCurve::Kind::separatrix, pairs[i].samples[pairs[i].samples.size() / 2]);
+                pairs.push_back({paths.cost(ports[i]) + paths.cost(ports[j]), i, j});
+        std::erase_if(pairs, [](const Pair& p) { return !(p.cost < infinite); });
+        std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.cost > b.cost; });
+        int n_tried = 0;
+        for (const Pair& p : pairs) {   // the long ones divide most
+            const auto path = paths.through_ports(ports[p.i], ports[p.j]);
+            if (!path) continue;
+            try_path(path, CandidateCurve::Kind::separatrix, path->samples[path->samples.size() / 2]);
+            if (++n_tried == most_port_pairs) break;
+        }
         // Look again close to the best.
         for (int round = 0; round < 2 && !found_.empty(); ++round) {
             const auto best = std::max_element(found_.begin(), found_.end(),

@@ -21,8 +21,8 @@ std::vector<Seam> collect_seams(const CutMesh& cut, const std::vector<int>& pane
     std::vector<Border> all;
     for (int f = 0; f < s.n_faces(); ++f)
         for (int k = 0; k < 3; ++k) {
-            const int a = s.faces[f][k], b = s.faces[f][(k + 1) % 3], g = cut.face_left(b, a);
-            if (g >= 0 && (a > b || !cut.is_seam(a, b))) continue;
+            const int a = s.faces[f][k], b = s.faces[f][(k + 1) % 3], g = cut.across(f, k);
+            if (g >= 0 && (a > b || !cut.is_seam_at(f, k))) continue;
             all.push_back({a, b, {panel[f], g < 0 ? -1 : panel[g]}});
             out[a].push_back(all.back());
             out[b].push_back(all.back().reversed());

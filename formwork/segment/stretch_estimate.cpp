@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <queue>
+#include <unordered_map>
 
 namespace formwork {
 
@@ -87,12 +88,13 @@ struct StretchModel::Impl {
     std::vector<std::vector<int>> neighbours;
     SparseMatrix laplacian;
     Eigen::SimplicialLLT<SparseMatrix> pattern;
-    VectorXd phi0;
+    std::unordered_map<std::vector<bool>, StretchEstimate> known;   // by the cells on the curve: many curves run through the same ones
 
-    VectorXd solve(const std::vector<char>& on_curve) const;
+    StretchEstimate measure(const std::vector<bool>& on_curve) const;
+    VectorXd solve(const std::vector<bool>& on_curve) const;
 };
 
-VectorXd StretchModel::Impl::solve(const std::vector<char>& on_curve) const {
+VectorXd StretchModel::Impl::solve(const std::vector<bool>& on_curve) const {
     SparseMatrix a = laplacian;
     VectorXd b = curvature;
     for (std::size_t c = 0; c < on_curve.size(); ++c)
@@ -164,60 +166,67 @@ StretchModel::StretchModel(const PanelPatch& p, int max_cells) : impl_(std::make
 StretchModel::~StretchModel() = default;
 
 StretchEstimate StretchModel::with_cut(const Curve& curve) const {
-    const Impl& m = *impl_;
+    Impl& m = *impl_;
     const int n = n_cells();
-    StretchEstimate e;
-    if (n == 0) return e;
-    std::vector<char> on_curve(n, 0);
+    if (n == 0) return {};
+    std::vector<bool> on_curve(n, false);
     for (const CurvePoint& q : curve) {
         const int v = q.is_node() || q.t < 0.5 ? q.a : q.b;
         int c = m.cell[v];
         if (c < 0 && !q.is_node()) c = m.cell[v == q.a ? q.b : q.a];
-        if (c >= 0) on_curve[c] = 1;
+        if (c >= 0) on_curve[c] = true;
     }
-    const VectorXd phi = m.solve(on_curve);
+    const auto [known, is_new] = m.known.try_emplace(on_curve);
+    if (is_new) known->second = m.measure(on_curve);
+    return known->second;
+}
+
+StretchEstimate StretchModel::Impl::measure(const std::vector<bool>& on_curve) const {
+    const int n = static_cast<int>(seed.size());
+    StretchEstimate e;
+    const VectorXd phi = solve(on_curve);
     std::vector<int> piece(n, -1), stack;
     std::vector<std::vector<int>> pieces;
-    for (int seed = 0; seed < n; ++seed) {
-        if (piece[seed] >= 0 || on_curve[seed]) continue;
+    for (int first = 0; first < n; ++first) {
+        if (piece[first] >= 0 || on_curve[first]) continue;
         pieces.emplace_back();
-        piece[seed] = static_cast<int>(pieces.size()) - 1;
-        stack.assign(1, seed);
+        piece[first] = static_cast<int>(pieces.size()) - 1;
+        stack.assign(1, first);
         while (!stack.empty()) {
             const int c = stack.back();
             stack.pop_back();
             pieces.back().push_back(c);
-            for (int d : m.neighbours[c])
+            for (int d : neighbours[c])
                 if (piece[d] < 0 && !on_curve[d]) {
-                    piece[d] = piece[seed];
+                    piece[d] = piece[first];
                     stack.push_back(d);
                 }
         }
     }
     std::vector<double> areas;
     for (const auto& cells : pieces) {
-        double area = 0, mean = 0;
+        double total = 0, mean = 0;
         for (int c : cells) {
-            area += m.area[c];
-            mean += m.area[c] * phi[c];
+            total += area[c];
+            mean += area[c] * phi[c];
         }
-        if (area <= 0) continue;
-        mean /= area;
+        if (total <= 0) continue;
+        mean /= total;
         std::vector<std::pair<double, double>> off;   // |phi - mean|, area
         for (int c : cells) {
             const double d = phi[c] - mean;
-            e.energy += m.area[c] * d * d;
-            off.emplace_back(std::abs(d), m.area[c]);
+            e.energy += area[c] * d * d;
+            off.emplace_back(std::abs(d), area[c]);
         }
         std::sort(off.begin(), off.end(), std::greater<>());
         double above = 0;
         for (const auto& [d, a] : off)
-            if ((above += a) > 0.05 * area) {
+            if ((above += a) > 0.05 * total) {
                 e.p95 = std::max(e.p95, d);
                 break;
             }
-        e.area += area;
-        areas.push_back(area);
+        e.area += total;
+        areas.push_back(total);
     }
     std::sort(areas.begin(), areas.end(), std::greater<>());
     e.smallest_piece = areas.size() < 2 ? 0 : areas[1];
@@ -228,7 +237,7 @@ std::vector<int> StretchModel::nodes_by_stretch() const {
     const Impl& m = *impl_;
     const int n = n_cells();
     if (n == 0) return {};
-    const VectorXd phi = m.solve(std::vector<char>(n, 0));
+    const VectorXd phi = m.solve(std::vector<bool>(n, false));
     std::vector<int> order(n);
     for (int c = 0; c < n; ++c) order[c] = c;
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return std::abs(phi[a]) > std::abs(phi[b]); });

@@ -80,8 +80,8 @@ std::optional<CutMesh> transfer_seams(const CutMesh& coarse, const std::vector<i
     const Surface& c = coarse.surface();
     for (int f = 0; f < c.n_faces(); ++f)   // a slit has one panel on both sides: no label tells of it
         for (int k = 0; k < 3; ++k) {
-            const int a = c.faces[f][k], b = c.faces[f][(k + 1) % 3], g = coarse.face_left(b, a);
-            if (g >= 0 && panel[f] == panel[g] && coarse.is_seam(a, b)) return {};
+            const int g = coarse.across(f, k);
+            if (g >= 0 && panel[f] == panel[g] && coarse.is_seam_at(f, k)) return {};
         }
     const Topology coarse_topology = arcsim::build_topology(c, "segment");
     const std::vector<int> face = coarse_faces(c, coarse_topology, coarse.source(), input, t);
@@ -114,7 +114,7 @@ std::optional<CutMesh> transfer_seams(const CutMesh& coarse, const std::vector<i
     for (const arcsim::Triangle& f : s.faces) of_face.push_back(label[*std::min_element(f.begin(), f.end())]);
     for (int f = 0; f < s.n_faces(); ++f)
         for (int k = 0; k < 3; ++k) {
-            const int i = s.faces[f][k], j = s.faces[f][(k + 1) % 3], g = cut.face_left(j, i);
+            const int i = s.faces[f][k], j = s.faces[f][(k + 1) % 3], g = cut.across(f, k);
             if (g > f && of_face[f] != of_face[g]) cut.mark_seam(i, j);
         }
     int found = 0;
