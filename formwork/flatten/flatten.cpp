@@ -1,6 +1,5 @@
 #include "formwork/flatten/flatten.hpp"
 
-#include <Eigen/CholmodSupport>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -39,7 +38,7 @@ void check_areas(const std::vector<Matrix2d>& shapes) {
 
 /// The flip-free start of lowest energy, scaled to its best size.
 VectorXd best_start(const std::vector<Triangle>& faces, const std::vector<Matrix2d>& shapes,
-                    const std::vector<int>& outline, int n, const IsometryEnergy& energy) {
+                    const std::vector<int>& outline, int n, const IsometryEnergy& energy, FlatteningSolver& solver) {
     VectorXd best;
     double lowest = std::numeric_limits<double>::infinity();
     const auto offer = [&](VectorXd u) {
@@ -48,7 +47,7 @@ VectorXd best_start(const std::vector<Triangle>& faces, const std::vector<Matrix
         const double e = energy.value(u);
         if (e < lowest) lowest = e, best = std::move(u);
     };
-    offer(conformal_map(faces, shapes, outline, n));
+    offer(conformal_map(faces, shapes, outline, n, energy, solver));
     if (!std::isfinite(lowest)) offer(circle_map(faces, shapes, outline, n, TutteWeights::mean_value));
     if (!std::isfinite(lowest)) offer(circle_map(faces, shapes, outline, n, TutteWeights::uniform));
     if (!std::isfinite(lowest))
@@ -72,18 +71,19 @@ std::vector<Matrix2d> rest_shapes(const Surface& s) {
     return shapes;
 }
 
-FlattenResult flatten_disk(const Surface& disk, const FlattenParams& params) {
-    const std::vector<int> outline = disk_outline(disk);
+FlattenResult flatten_disk(const Surface& disk, const FlattenParams& params) { return flatten_disk(disk, disk_outline(disk), params); }
+
+FlattenResult flatten_disk(const Surface& disk, const std::vector<int>& outline, const FlattenParams& params) {
     const std::vector<Matrix2d> shapes = rest_shapes(disk);
     check_areas(shapes);
     const int n = disk.n_nodes();
     const IsometryEnergy energy(disk.faces, shapes, n);
-    VectorXd u = best_start(disk.faces, shapes, outline, n, energy);
+    FlatteningSolver solver;
+    solver.cholmod().print = 0;   // what fails is told by the exception
+    VectorXd u = best_start(disk.faces, shapes, outline, n, energy, solver);
 
     FlattenResult result;
     Eigen::SparseMatrix<double> hessian;
-    Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>, Eigen::Lower> solver;
-    solver.cholmod().print = 0;   // what fails is told by the exception
     VectorXd gradient;
     while (result.iterations < params.max_iterations && !result.converged) {
         const double e = energy.assemble(u, relative_shift * energy.diagonal_scale(), gradient, hessian);
@@ -91,7 +91,6 @@ FlattenResult flatten_disk(const Surface& disk, const FlattenParams& params) {
             result.converged = true;
             break;
         }
-        if (result.iterations == 0) solver.analyzePattern(hessian);
         solver.factorize(hessian);
         if (solver.info() != Eigen::Success)
             throw arcsim::NumericalError("flatten: the Hessian cannot be factorised at step " + std::to_string(result.iterations));

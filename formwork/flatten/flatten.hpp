@@ -51,6 +51,8 @@ struct FlattenResult {
 /// @throws InputError when the surface is no disk or has a face without area; NumericalError when no start
 ///         without flips exists in double precision
 FlattenResult flatten_disk(const Surface& disk, const FlattenParams& params = {});
+/// The same for a surface that is known to be a disk, by its outline: boundary nodes in the faces' direction.
+FlattenResult flatten_disk(const Surface& disk, const std::vector<int>& outline, const FlattenParams& params);
 
 /// The shape of every face in a plane of its own: columns are the edges 0->1 and 0->2, m; first axis along
 /// edge 0->1 (the FaceFrame of arcsim/mesh/surface.hpp).

@@ -62,33 +62,85 @@ IsometryEnergy::IsometryEnergy(const std::vector<Triangle>& faces, const std::ve
     }
     for (double& w : weight_) w /= total;
 
-    std::vector<Eigen::Triplet<double>> entries;
-    for (const Triangle& t : faces_)
-        for (int a = 0; a < 6; ++a)
-            for (int b = 0; b < 6; ++b)
-                if (local_dof(t, a) >= local_dof(t, b)) entries.emplace_back(local_dof(t, a), local_dof(t, b), 0.0);
-    for (int i = 0; i < 2 * n; ++i) entries.emplace_back(i, i, 0.0);
-    pattern_.setFromTriplets(entries.begin(), entries.end());
-    pattern_.makeCompressed();
-
-    const auto find = [&](int row, int column) {
-        const int* begin = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[column];
-        const int* end = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[column + 1];
-        return static_cast<int>(std::lower_bound(begin, end, row) - pattern_.innerIndexPtr());
-    };
-    for (const Triangle& t : faces_) {
-        std::array<int, 21> slots;
-        int next = 0;
-        for (int a = 0; a < 6; ++a)
-            for (int b = 0; b <= a; ++b)
-                slots[next++] = find(std::max(local_dof(t, a), local_dof(t, b)), std::min(local_dof(t, a), local_dof(t, b)));
-        slot_.push_back(slots);
-    }
-    for (int i = 0; i < 2 * n; ++i) diagonal_.push_back(find(i, i));
+    find_pattern(n);
 
     double sum = 0;   // at an isometry the Hessian per face is close to 8 A BᵀB
     for (std::size_t f = 0; f < faces_.size(); ++f) sum += 8 * weight_[f] * strain_map(inverse_[f]).squaredNorm();
     diagonal_scale_ = sum / (2 * n);
+}
+
+/// Columns of the lower triangle: a node's two coordinates with themselves and with those of its higher neighbours.
+void IsometryEnergy::find_pattern(int n) {
+    std::vector<int> start(n + 1, 0);   // per node: its neighbours of higher number
+    const auto each_edge = [&](auto&& body) {
+        for (const Triangle& t : faces_)
+            for (int k = 0; k < 3; ++k) body(std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3]));
+    };
+    each_edge([&](int lo, int) { ++start[lo + 1]; });
+    for (int i = 0; i < n; ++i) start[i + 1] += start[i];
+    std::vector<int> higher(start[n]), end(start.begin(), start.end() - 1);
+    each_edge([&](int lo, int hi) { higher[end[lo]++] = hi; });
+    int size = 0;
+    for (int i = 0; i < n; ++i) {   // edges inside the disk came twice
+        std::sort(higher.begin() + start[i], higher.begin() + end[i]);
+        end[i] = static_cast<int>(std::unique(higher.begin() + start[i], higher.begin() + end[i]) - higher.begin());
+        size += 3 + 4 * (end[i] - start[i]);
+    }
+    pattern_.resizeNonZeros(size);
+    int* column = pattern_.outerIndexPtr();
+    int* row = pattern_.innerIndexPtr();
+    std::fill(pattern_.valuePtr(), pattern_.valuePtr() + size, 0.0);
+    int at = 0;
+    for (int i = 0; i < n; ++i)
+        for (int axis = 0; axis < 2; ++axis) {
+            column[2 * i + axis] = at;
+            diagonal_.push_back(at);
+            for (int other = axis; other < 2; ++other) row[at++] = 2 * i + other;
+            for (int k = start[i]; k < end[i]; ++k)
+                for (int other = 0; other < 2; ++other) row[at++] = 2 * higher[k] + other;
+        }
+    column[2 * n] = at;
+
+    const auto find = [&](int p, int q) {   // degrees of freedom
+        const int i = std::min(p, q) / 2, j = std::max(p, q) / 2, lo = std::min(p, q);
+        if (i == j) return column[lo] + std::max(p, q) - lo;
+        const auto place = std::lower_bound(higher.begin() + start[i], higher.begin() + end[i], j) - (higher.begin() + start[i]);
+        return column[lo] + (lo % 2 == 0 ? 2 : 1) + 2 * static_cast<int>(place) + std::max(p, q) % 2;
+    };
+    slot_.reserve(faces_.size());
+    for (const Triangle& t : faces_) {
+        std::array<int, 21> slots;
+        int next = 0;
+        for (int a = 0; a < 6; ++a)
+            for (int b = 0; b <= a; ++b) slots[next++] = find(local_dof(t, a), local_dof(t, b));
+        slot_.push_back(slots);
+    }
+}
+
+void IsometryEnergy::assemble_conformal(Eigen::SparseMatrix<double>& hessian) const {
+    hessian = pattern_;
+    double* values = hessian.valuePtr();
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+        const auto add = [&](int p, int q, double w) {   // local degrees of freedom
+            const int a = std::max(p, q), b = std::min(p, q);
+            values[slot_[f][a * (a + 1) / 2 + b]] += w;
+        };
+        const Matrix2d shape = inverse_[f].inverse();
+        const std::array<Vector2d, 3> x{Vector2d::Zero(), shape.col(0), shape.col(1)};
+        for (int k = 0; k < 3; ++k) {
+            const int i = (k + 1) % 3, j = (k + 2) % 3;
+            const double w = 0.5 * (x[i] - x[k]).dot(x[j] - x[k]) / shape.determinant();   // cot / 2
+            for (int axis = 0; axis < 2; ++axis) {
+                add(2 * i + axis, 2 * i + axis, w);
+                add(2 * j + axis, 2 * j + axis, w);
+                add(2 * i + axis, 2 * j + axis, -w);
+            }
+            add(2 * i, 2 * j + 1, -0.5);   // minus the area, 1/2 sum (x_i y_j - x_j y_i); exact in cancelling inside
+            add(2 * j, 2 * i + 1, 0.5);
+        }
+    }
+    for (int slot : diagonal_)
+        if (values[slot] == 0) values[slot] = 1;   // of a node without faces
 }
 
 Matrix2d IsometryEnergy::deformation(const VectorXd& u, int f) const {

@@ -33,6 +33,10 @@ public:
     /// [Smith, De Goes and Kim 2019, analytic eigensystems]. `shift` is added to the diagonal.
     double assemble(const VectorXd& u, double shift, VectorXd& gradient, Eigen::SparseMatrix<double>& hessian) const;
 
+    /// Hessian, in the same pattern, of the conformal energy 1/4 sum cot |du|² - area / 2 [Levy et al. 2002], whose kernel
+    /// holds the similarities of the plane.
+    void assemble_conformal(Eigen::SparseMatrix<double>& hessian) const;
+
     /// The largest t <= 1 for which u + t du turns no face over, with a margin of 10 %.
     double largest_step(const VectorXd& u, const VectorXd& du) const;
 
@@ -43,6 +47,7 @@ public:
     double diagonal_scale() const { return diagonal_scale_; }
 
 private:
+    void find_pattern(int n);
     Matrix2d deformation(const VectorXd& u, int f) const;
 
     std::vector<Triangle> faces_;

@@ -38,7 +38,7 @@ double solidity_of(const std::vector<Vector2d>& outline) {
 
 PanelMemory::Flat lay_flat(const PanelPatch& patch, const FlattenParams& params) {
     try {
-        const FlattenResult flat = flatten_disk(patch.surface, params);
+        const FlattenResult flat = flatten_disk(patch.surface, patch.topology.boundary_loops.front(), params);
         std::vector<Vector2d> outline;
         for (int v : patch.topology.boundary_loops.front()) outline.push_back(flat.u[v]);
         return {flat.stretch.p95, solidity_of(outline), !outline_crossings(outline, 1).empty(), false};
