@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <limits>
 #include <numeric>
 #include <queue>
 
@@ -61,81 +61,6 @@ double boundary_angle(const PanelPatch& p, int node) {
     for (int f : p.topology.node_faces[node])
         angle += corner_angle_at(p.surface, p.surface.faces[f], corner_of(p.surface.faces[f], node));
     return angle;
-}
-
-namespace {
-
-double loop_length(const PanelPatch& p, const std::vector<int>& loop) {
-    double length = 0;
-    for (std::size_t i = 0; i < loop.size(); ++i) length += (p.surface.x[loop[i]] - p.surface.x[loop[(i + 1) % loop.size()]]).norm();
-    return length;
-}
-
-/// The point of an outline `arm` m away from its node i, onwards (step 1) or back (step -1).
-Vector3d point_along(const PanelPatch& p, const std::vector<int>& loop, int i, int step, double arm) {
-    const int n = static_cast<int>(loop.size());
-    double left = arm;
-    for (int j = i, count = 0; count < n; ++count) {
-        const int k = (j + step + n) % n;
-        const Vector3d &a = p.surface.x[loop[j]], &b = p.surface.x[loop[k]];
-        const double l = (b - a).norm();
-        if (l >= left) return a + left / l * (b - a);
-        left -= l;
-        j = k;
-    }
-    return p.surface.x[loop[i]];
-}
-
-/// By how much an outline turns within the surface from its mean course before node i to that after it, rad: nodes weigh by
-/// nearness, and junctions, which are corners of their own, do not count.
-double turn_along(const PanelPatch& p, const std::vector<int>& loop, int i, double arm) {
-    const int n = static_cast<int>(loop.size());
-    double turn = 0;
-    for (int step : {1, -1}) {
-        double gone = 0;
-        for (int j = step > 0 ? i : (i - 1 + n) % n, last = i, count = 0; count < n; ++count, last = j, j = (j + step + n) % n) {
-            gone += (p.surface.x[loop[j]] - p.surface.x[loop[last]]).norm();
-            if (gone >= arm) break;
-            if (!p.junction[loop[j]]) turn += (1 - gone / arm) * (std::numbers::pi - boundary_angle(p, loop[j]));
-        }
-    }
-    return turn;
-}
-
-}  // namespace
-
-std::vector<int> corner_nodes(const PanelPatch& p) {
-    constexpr double turn = 40 * std::numbers::pi / 180;        // at junctions
-    constexpr double rim_turn = 50 * std::numbers::pi / 180;    // elsewhere: the mesh's own zigzag must not count
-    constexpr double arm_edges = 6, arm_share = 1. / 32;        // nor do the teeth of a ragged rim: seen over an arm's length, they cancel
-    std::vector<int> corners;
-    for (const auto& loop : p.topology.boundary_loops) {
-        const int n = static_cast<int>(loop.size());
-        const double length = loop_length(p, loop), arm = std::min(length * std::max(arm_edges / n, arm_share), length / 8);
-        for (int i = 0; i < n; ++i) {
-            const int v = loop[i];
-            if (p.given[v] || std::abs(boundary_angle(p, v) - std::numbers::pi) <= (p.junction[v] ? turn : rim_turn)) continue;
-            if (p.junction[v] || std::abs(turn_along(p, loop, i, arm)) > rim_turn) corners.push_back(v);
-        }
-    }
-    return corners;
-}
-
-OutlineShape outline_shape(const PanelPatch& p, double reach) {
-    constexpr double corner = 110 * std::numbers::pi / 180, inner = 230 * std::numbers::pi / 180;
-    OutlineShape shape;
-    for (const auto& loop : p.topology.boundary_loops) {
-        const int n = static_cast<int>(loop.size());
-        const double arm = std::min(reach, loop_length(p, loop) / 8);
-        for (int i = 0; i < n; ++i) {
-            const double angle = boundary_angle(p, loop[i]);
-            if (angle > inner) ++shape.inner_corners;
-            if (angle > corner) continue;
-            const double gap = (point_along(p, loop, i, 1, arm) - point_along(p, loop, i, -1, arm)).norm();
-            shape.sharpest = std::min({shape.sharpest, angle, 2 * std::asin(std::min(1., gap / (2 * arm)))});
-        }
-    }
-    return shape;
 }
 
 EdgeLengths::EdgeLengths(const PanelPatch& p) : start_(p.surface.x.size() + 1, 0), arcs_(2 * p.topology.edges.size()) {

@@ -47,20 +47,6 @@ PanelPatch extract_patch(const CutMesh& cut, const std::vector<int>& faces);
 /// Interior angle of the patch at a boundary node, rad.
 double boundary_angle(const PanelPatch& patch, int node);
 
-/// Corners of a patch: junctions, and sharp nodes of the rim, where the outline turns by more than 40°.
-/// Turns of seams that were asked for are the user's own, and do not count.
-/// Local node numbers, along the boundary loops.
-std::vector<int> corner_nodes(const PanelPatch& patch);
-
-/// What makes an outline easy or hard to sew.
-struct OutlineShape {
-    double sharpest = 3.1416;   // rad: least opening of a corner, seen over a stretch of outline
-    int inner_corners = 0;      // that turn inwards by more than 50°: the neighbour's tip has to be set into them
-};
-/// @param reach  m of outline on either side over which the opening of a corner is measured: a long thin tip counts
-///               as sharp whatever the angle at its very end
-OutlineShape outline_shape(const PanelPatch& patch, double reach);
-
 /// Diameter of the largest disk in the patch, measured along edges: twice the largest distance to the border, m.
 double patch_width(const PanelPatch& patch);
 

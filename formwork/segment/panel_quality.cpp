@@ -55,9 +55,9 @@ PanelQuality look_at(const PanelPatch& patch, const SplitRules& rules, double ca
     q.area = patch.area();
     q.p95 = std::numeric_limits<double>::infinity();
     if (!q.is_disk) return q;
-    q.corners = static_cast<int>(corner_nodes(patch).size());
     q.width = patch_width(patch);
     q.shape = outline_shape(patch, rules.min_width);
+    q.corners = q.shape.corners;
     const auto [known, is_new] = rules.memory->estimate.try_emplace(PanelMemory::key_of(patch.surface));
     if (is_new) known->second = StretchModel(patch, estimate_cells).whole().p95;
     q.estimate = known->second;
@@ -91,7 +91,7 @@ bool keeps_bounds(const PanelQuality& q, const SplitRules& rules) {
 }
 
 double panel_cost(const PanelQuality& q, const SplitRules& rules) {
-    constexpr double violation = 10, most_excess = 10, tip = 0.5, least_tip = 0.4 /* rad */, inner_corner = 0.3, hook = 5;
+    constexpr double violation = 10, most_excess = 10, tip = 1.2, least_tip = 0.5 /* rad */, inner_corner = 0.3, hook = 5;
     if (!q.is_disk) return 10 * violation;
     double cost = 1;
     if (q.p95 > rules.max_distortion) cost += violation + violation * std::min(most_excess, q.p95 / rules.max_distortion - 1);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "formwork/segment/panel_patch.hpp"
+#include "formwork/segment/panel_outline.hpp"
 #include "formwork/segment/panel_split.hpp"
 
 namespace formwork {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "formwork/segment/field_paths.hpp"
+#include "formwork/segment/panel_outline.hpp"
 #include "formwork/segment/surface_curve.hpp"
 
 namespace formwork {

@@ -20,7 +20,7 @@
 #include "arcsim/base/error.hpp"
 #include "arcsim/mesh/obj_io.hpp"
 #include "formwork/flatten/flatten.hpp"
-#include "formwork/segment/panel_patch.hpp"
+#include "formwork/segment/panel_outline.hpp"
 #include "formwork/segment/segment.hpp"
 #include "scripts/bench/subdivide.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "arcsim/base/error.hpp"
 #include "formwork/segment/layout_json.hpp"
-#include "formwork/segment/panel_patch.hpp"
+#include "formwork/segment/panel_outline.hpp"
 #include "tests/formwork/layout_meshes.hpp"
 #include "tests/output_folder.hpp"
 
