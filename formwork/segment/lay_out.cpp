@@ -19,6 +19,8 @@ namespace {
 
 constexpr int enough_faces = 6000;       // for a layout of few panels: more only cost time
 constexpr int faces_per_panel = 200;
+constexpr double work_per_face = 60;     // of the mesh that is searched
+constexpr double search_share = 0.7;     // of all work; the rest is for what mending the seams did
 constexpr int repair_rounds = 3;
 constexpr FlattenParams thorough{60, 1e-4};   // p95 is settled to a few thousandths of itself
 constexpr double margin = 0.93, polish_margin = 0.96;   // of the bound, in the search: what is done to the mesh later costs some
@@ -89,26 +91,35 @@ Layout polished(const LayoutJob& job, const CutMesh& cut, int max_panels, std::v
     }
 }
 
+/// The same job with work of its own to spend. @param part  of the surface that is searched
+LayoutJob with_effort(const LayoutJob& job, const Base& base, double part) {
+    LayoutJob own = job;
+    own.rules.effort = std::make_shared<Effort>(Effort{part * work_per_face * base.mesh.surface.n_faces(), 0});
+    return own;
+}
+
 /// A layout as it was searched for, and what was compared on the way.
 struct Found {
     Layout layout;
     std::vector<CandidateCurve> candidates;
 };
 
-Found free_layout(const LayoutJob& job, const Base& base) {
+Found free_layout(const LayoutJob& whole_job, const Base& base) {
+    const LayoutJob job = with_effort(whole_job, base, 1);
     Layout layout = layout_on(job, uncut(job, base.mesh), job.params.max_panels, Stage::search);
     for (std::size_t i = 0; i < job.strokes.size(); ++i)
         if (!layout.add_curve(stroke_curve(layout, job.strokes[i], static_cast<int>(i)), true))
             throw arcsim::InputError("segment: stroke " + std::to_string(i + 1) + " crosses itself. Draw it as several strokes.");
     layout.search();
-    layout.rework(Rework::all);
+    layout.rework(Rework::all, search_share);
     std::vector<int> singular = singular_nodes(job, layout.cut().surface());
     return {polished(job, layout.cut(), job.params.max_panels, singular, Rework::all), layout.candidates()};
 }
 
 /// The layout of the part on one side of all planes, and its mirror images; nothing when they do not fit.
 /// @param what  is laid out anew: a first look does without what only looks bad
-std::optional<Found> mirrored_layout(const LayoutJob& job, const Base& base, const std::vector<MirrorPlane>& planes, Rework what) {
+std::optional<Found> mirrored_layout(const LayoutJob& whole_job, const Base& base, const std::vector<MirrorPlane>& planes, Rework what) {
+    const LayoutJob job = with_effort(whole_job, base, 1. / static_cast<double>(1 << planes.size()));
     MeshOnInput settled = base.mesh;
     for (const MirrorPlane& plane : planes) settle_on_plane(settled, base.topology, plane, job.s, job.topology);
     const int max_panels = std::max(1, job.params.max_panels >> planes.size());
@@ -124,7 +135,7 @@ std::optional<Found> mirrored_layout(const LayoutJob& job, const Base& base, con
     for (const MirrorPlane& plane : planes) part.keep_one_side(plane.point, plane.normal);
     if (part.n_panels() == 0) return {};
     part.search();
-    part.rework(what);
+    part.rework(what, search_share);
     std::vector<CandidateCurve> candidates = part.candidates();
     std::vector<int> singular = singular_nodes(job, part.cut().surface());
     part = polished(job, part.cut(), max_panels, singular, what, planes);

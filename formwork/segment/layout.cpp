@@ -111,11 +111,21 @@ void Layout::merge_images(const std::vector<int>& face_image) {
             try_merge(pair.first, pair.second, border);
 }
 
+const PanelQuality& Layout::look(int panel) {
+    Panel& p = panels_[panel];
+    if (!p.looked_at) {
+        const PanelPatch patch = extract_patch(cut_, faces_of(panel));
+        p.quality = look_at(patch, rules_, calibration_of({}));
+        p.looked_at = true;
+    }
+    return p.quality;
+}
+
 const PanelQuality& Layout::quality(int panel) {
+    look(panel);
     Panel& p = panels_[panel];
     if (!p.assessed) {
         const PanelPatch patch = extract_patch(cut_, faces_of(panel));
-        p.quality = look_at(patch, rules_, calibration_of({}));
         formwork::measure_flat(patch, rules_, p.quality);
         p.assessed = true;
         tell();

@@ -40,8 +40,8 @@ public:
     /// Splits what is no disk or does not lie flat within the bound. @returns whether a seam was added
     bool refine() { return refine(limits_.max_panels); }
     /// Lays out anew, with some of its neighbours, every panel that is out of bounds; with `Rework::all` those that are hard
-    /// to sew, too. @returns whether that changed anything
-    bool rework(Rework what);
+    /// to sew, too. @param share  of all work that may be spent when this ends  @returns whether that changed anything
+    bool rework(Rework what, double share = 1);
     /// Leaves out of the search every panel that lies on the far side of a plane.
     void keep_one_side(const Vector3d& point, const Vector3d& normal);
     /// Per face: 1 where the search went on.
@@ -64,14 +64,17 @@ public:
 
 private:
     struct Panel {
-        bool alive = true, assessed = false, stuck = false, frozen = false;
-        bool parked = false;   // left alone while a group of others is laid out anew
+        bool alive = true, stuck = false, frozen = false;
+        bool parked = false;     // left alone while a group of others is laid out anew
+        bool looked_at = false;  // all is known but the flat pattern
+        bool assessed = false;   // and that
         PanelQuality quality;
     };
 
     void relabel(int panel);
     std::vector<int> faces_of(int panel) const;
     SurfaceField field_on(const PanelPatch& patch) const;
+    const PanelQuality& look(int panel);
     const PanelQuality& quality(int panel);
     void tell() const;
     double excess(const PanelQuality& q) const { return excess_of(q, rules_); }
@@ -97,7 +100,8 @@ private:
         bool is_given = false;
         std::vector<std::pair<int, int>> edges;
     };
-    std::map<std::pair<int, int>, Border> borders() const;
+    using Borders = std::map<std::pair<int, int>, Border>;
+    Borders borders() const;
     PanelPatch joined(int a, int b, const Border& border, std::vector<int>& faces);
     bool try_merge(int a, int b, const Border& border);
     bool prune();
@@ -110,8 +114,12 @@ private:
         std::vector<Panel> panels;
     };
     void restore(const State& s);
-    std::vector<std::vector<int>> groups_around(int seed);
-    bool rework(const std::vector<int>& group, double& work_left);
+    std::vector<int> hard_panels(Rework what);
+    enum class GroupSize { pair, triple, ring };
+    std::vector<std::vector<int>> groups_around(int seed, GroupSize size, const Borders& all);
+    GroupTrace trace_of(const std::vector<int>& group);
+    double group_floor(int most_panels);
+    bool rework(const std::vector<int>& group);
 
     const Surface* input_;
     SplitRules rules_;

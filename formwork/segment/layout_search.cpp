@@ -1,11 +1,17 @@
 // How a layout looks for few panels: splits those that are out of bounds, then merges and tries other seams.
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "formwork/segment/layout.hpp"
 
 namespace formwork {
+namespace {
+
+constexpr double improving_share = 0.4;   // of all work, that moving single seams may take
+
+}  // namespace
 
 Curve Layout::on_cut(const PanelPatch& patch, Curve curve) {
     for (CurvePoint& p : curve) {
@@ -99,8 +105,8 @@ bool Layout::refine(int most_panels) {
     return any;
 }
 
-std::map<std::pair<int, int>, Layout::Border> Layout::borders() const {
-    std::map<std::pair<int, int>, Border> all;
+Layout::Borders Layout::borders() const {
+    Borders all;
     const Surface& s = cut_.surface();
     for (int f = 0; f < s.n_faces(); ++f)
         for (int k = 0; k < 3; ++k) {
@@ -143,7 +149,7 @@ bool Layout::try_merge(int a, int b, const Border& border) {
     for (const auto& [i, j] : border.edges) cut_.unmark_seam(i, j);
     for (int f : faces) panel_[f] = a;
     if (a != b) panels_[b].alive = false;
-    panels_[a] = {.assessed = true, .quality = q};
+    panels_[a] = {.looked_at = true, .assessed = true, .quality = q};
     return true;
 }
 
@@ -178,6 +184,8 @@ bool Layout::resplit(int a, int b, const Border& border) {
     std::vector<int> faces;
     const PanelPatch patch = joined(a, b, border, faces);
     if (!patch.is_disk()) return false;
+    const PanelMemory::Key key = PanelMemory::key_of(patch.surface) + std::bit_cast<PanelMemory::Key>(border.length);
+    if (rules_.memory->settled.count(key)) return false;
     const PanelQuality &qa = quality(a), &qb = quality(b);
     const double scale = std::sqrt(calibration_of(qa) * calibration_of(qb));
     auto trials = try_splits(patch, look_at(patch, rules_, scale), 3);
@@ -186,10 +194,16 @@ bool Layout::resplit(int a, int b, const Border& border) {
     const double old_cost = old_excess + length_weight * border.length;
     const auto cost = [&](const Trial& t) { return t.excess + length_weight * t.length; };
     std::erase_if(trials, [&](const Trial& t) { return !t.is_allowed || cost(t) > 0.95 * old_cost; });
-    if (trials.empty()) return false;
+    if (trials.empty()) {
+        rules_.memory->settled.insert(key);
+        return false;
+    }
     Trial& best = *std::min_element(trials.begin(), trials.end(), [&](const Trial& s, const Trial& t) { return cost(s) < cost(t); });
     measure_flat(best);
-    if (cost(best) > 0.97 * old_cost || best.excess > old_excess + 1e-12) return false;
+    if (cost(best) > 0.97 * old_cost || best.excess > old_excess + 1e-12) {
+        rules_.memory->settled.insert(key);
+        return false;
+    }
     for (const auto& [i, j] : border.edges) cut_.unmark_seam(i, j);
     cut_.insert_seam(best.curve);   // if it failed, the two stay one panel, to be looked at again
     for (int f = static_cast<int>(panel_.size()); f < cut_.surface().n_faces(); ++f) panel_.push_back(panel_[cut_.split_from(f)]);
@@ -214,6 +228,7 @@ bool Layout::improve() {
         for (const auto& [weight, pair] : order) {
             done[pair] = true;
             const auto [a, b] = pair;
+            if (!rules_.effort->is_left(improving_share)) break;
             if (!resplit(a, b, all.at(pair))) continue;
             any = changed = true;
             ++changes;

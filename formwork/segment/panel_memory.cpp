@@ -1,6 +1,8 @@
 #include "formwork/segment/panel_memory.hpp"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace formwork {
 namespace {
@@ -25,6 +27,15 @@ PanelMemory::Key PanelMemory::key_of(const Surface& s) {
     Key key = s.faces.size();
     for (const arcsim::Triangle& t : s.faces) key += mixed(place[t[0]] + place[t[1]] + place[t[2]]);   // sums: in any order
     return key;
+}
+
+bool PanelMemory::is_hopeless(const GroupTrace& g) const {
+    constexpr double near = 0.02;   // of the group's size: what mending seams may move
+    constexpr double worse = 0.3;   // in panels: a group that has become worse by more is tried again
+    return std::any_of(hopeless.begin(), hopeless.end(), [&](const GroupTrace& h) {
+        return h.members == g.members && g.spare <= h.spare && g.cost <= h.cost + worse && std::abs(g.area - h.area) < near * h.area &&
+               (g.centre - h.centre).squaredNorm() < near * near * h.area;
+    });
 }
 
 }  // namespace formwork

@@ -9,6 +9,7 @@ namespace formwork {
 namespace {
 
 constexpr double hopeless = 2.5;   // times the allowed stretch: such an estimate needs no flattening to be believed
+constexpr double least_calibration = 0.4;
 constexpr double usual_calibration = 0.75;   // measured stretch over estimate, typical of panels of mixed shape
 constexpr int estimate_cells = 400;
 
@@ -52,7 +53,12 @@ PanelMemory::Flat lay_flat(const PanelPatch& patch, const FlattenParams& params)
 PanelQuality look_at(const PanelPatch& patch, const SplitRules& rules, double calibration) {
     PanelQuality q;
     q.is_disk = patch.is_disk();
-    q.area = patch.area();
+    for (int f = 0; f < patch.surface.n_faces(); ++f) {
+        const double a = arcsim::face_area(patch.surface, f);
+        q.area += a;
+        q.centre += a * arcsim::face_centroid(patch.surface, f);
+    }
+    q.centre /= q.area;
     q.p95 = std::numeric_limits<double>::infinity();
     if (!q.is_disk) return q;
     q.width = patch_width(patch);
@@ -70,7 +76,10 @@ void measure_flat(const PanelPatch& patch, const SplitRules& rules, PanelQuality
     q.is_flattened = true;
     const auto [known, is_new] =
         rules.memory->flat.try_emplace(PanelMemory::key_of(patch.surface) + static_cast<PanelMemory::Key>(rules.flattening.max_iterations));
-    if (is_new) known->second = lay_flat(patch, rules.flattening);
+    if (is_new) {
+        known->second = lay_flat(patch, rules.flattening);
+        rules.effort->spent += patch.surface.n_faces();
+    }
     const PanelMemory::Flat& flat = known->second;
     q.p95 = flat.failed ? std::max(q.estimate, hopeless * rules.max_distortion) : flat.p95;   // as bad as it gets
     q.solidity = flat.solidity;
@@ -78,7 +87,7 @@ void measure_flat(const PanelPatch& patch, const SplitRules& rules, PanelQuality
 }
 
 double calibration_of(const PanelQuality& q) {
-    return q.is_flattened && q.estimate > 0 ? std::clamp(q.p95 / q.estimate, 0.4, 1.3) : usual_calibration;
+    return q.is_flattened && q.estimate > 0 ? std::clamp(q.p95 / q.estimate, least_calibration, 1.3) : usual_calibration;
 }
 
 double excess_of(const PanelQuality& q, const SplitRules& rules) {
@@ -88,6 +97,11 @@ double excess_of(const PanelQuality& q, const SplitRules& rules) {
 
 bool keeps_bounds(const PanelQuality& q, const SplitRules& rules) {
     return q.is_disk && !q.overlaps && q.p95 <= rules.max_distortion && q.corners <= rules.max_corners && q.width >= rules.min_width;
+}
+
+PanelQuality at_best(PanelQuality q) {
+    if (q.is_disk && !q.is_flattened) q.p95 = least_calibration * q.estimate;
+    return q;
 }
 
 double panel_cost(const PanelQuality& q, const SplitRules& rules) {

@@ -9,6 +9,7 @@ namespace formwork {
 struct PanelQuality {
     bool is_disk = false;
     double area = 0;             // m²
+    Vector3d centre = Vector3d::Zero();   // of the area, m
     double estimate = 0;         // of the stretch, before flattening
     bool is_flattened = false;   // p95 is measured, not derived from the estimate
     double p95 = 0;              // stretch of the flat pattern that 95 % of the area stays below
@@ -37,6 +38,9 @@ bool keeps_bounds(const PanelQuality& q, const SplitRules& rules);
 
 /// A hook or snake: cloth is wasted around it, and it is hard to sew in.
 constexpr double least_solidity = 0.65;
+
+/// The same panel as good as a flattening could find it.
+PanelQuality at_best(PanelQuality q);
 
 /// What a panel costs in a layout, in panels: 1, and more for bounds that are not kept, thin tips, inner corners
 /// and hooks.

@@ -363,6 +363,7 @@ private:
 
 std::vector<Split> best_splits(const PanelPatch& patch, const SurfaceField& field, const SplitRules& rules, int count,
                                std::vector<CandidateCurve>* all) {
+    rules.effort->spent += patch.surface.n_faces();
     return Search(patch, field, rules).along_field(count, all);
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "formwork/flatten/flatten.hpp"
+#include "formwork/segment/effort.hpp"
 #include "formwork/segment/field_graph.hpp"
 #include "formwork/segment/panel_memory.hpp"
 #include "formwork/segment/stretch_estimate.hpp"
@@ -20,6 +21,7 @@ struct SplitRules {
     double spacing = 0;             // m between the middles of different cuts; 0: a quarter of min_width
     FlattenParams flattening = FlattenParams::fast();   // by which panels are judged
     std::shared_ptr<PanelMemory> memory = std::make_shared<PanelMemory>();   // of panels judged so far; shared by copies
+    std::shared_ptr<Effort> effort = std::make_shared<Effort>();             // spent so far; shared by copies
     double calibration = 1;         // stretch of the panel laid flat over its estimate: corrects the pieces' estimates
 };
 
