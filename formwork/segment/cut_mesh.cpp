@@ -141,6 +141,7 @@ int CutMesh::split_edge(int a, int b, double t) {
 }
 
 std::vector<int> CutMesh::insert(const Curve& curve) {
+    constexpr double same_point = 1e-3;   // of the edge: nearer points of a curve are one, or faces between them had no area
     std::map<std::pair<int, int>, std::vector<std::pair<double, int>>> split;   // edge a < b -> (t, node), sorted
     std::vector<int> nodes;
     for (const CurvePoint& p : curve) {
@@ -155,8 +156,8 @@ std::vector<int> CutMesh::insert(const Curve& curve) {
         const auto above = std::find_if(on_edge.begin(), on_edge.end(), [&](const auto& q) { return q.first > t; });
         const auto [t1, right] = above == on_edge.end() ? std::pair{1., b} : *above;
         const auto [t0, left] = above == on_edge.begin() ? std::pair{0., a} : *(above - 1);
-        if (left != a && t - t0 < 1e-6) {   // the same point met twice: a closed curve
-            nodes.push_back(left);
+        if ((left != a && t - t0 < same_point) || (right != b && t1 - t < same_point)) {   // met twice: a closed curve
+            nodes.push_back(left != a && t - t0 < same_point ? left : right);
             continue;
         }
         const int m = split_edge(left, right, (t - t0) / (t1 - t0));

@@ -25,6 +25,9 @@ constexpr int repair_rounds = 3;
 constexpr FlattenParams thorough{60, 1e-4};   // p95 is settled to a few thousandths of itself
 constexpr double margin = 0.93, polish_margin = 0.96;   // of the bound, in the search: what is done to the mesh later costs some
 
+constexpr double corner_care = 0.9;       // corners that nearly count do once a seam is straightened
+constexpr double least_clearance = 0.1;   // of min_width: pieces that nearly touch themselves do once they are laid flat more precisely
+
 /// The mesh that the layout is searched on.
 struct Base {
     MeshOnInput mesh;
@@ -53,7 +56,11 @@ enum class Stage { search, polish, verdict };
 Layout layout_on(const LayoutJob& job, CutMesh cut, int max_panels, Stage stage) {
     SplitRules rules = job.rules;
     if (stage != Stage::search) rules.flattening = thorough;
-    if (stage != Stage::verdict) rules.max_distortion *= stage == Stage::search ? margin : polish_margin;
+    if (stage != Stage::verdict) {
+        rules.max_distortion *= stage == Stage::search ? margin : polish_margin;
+        rules.care = corner_care;
+        rules.clearance = least_clearance * rules.min_width;
+    }
     return {job.s, job.field.theta, job.data, rules, {max_panels, job.params.on_step}, std::move(cut)};
 }
 

@@ -82,7 +82,7 @@ int Layout::worst_panel() {
     for (int p = 0; p < static_cast<int>(panels_.size()); ++p) {
         if (!panels_[p].alive || panels_[p].stuck || panels_[p].frozen || panels_[p].parked) continue;
         const PanelQuality& q = quality(p);
-        if (q.is_disk && !q.overlaps && q.p95 <= rules_.max_distortion) continue;
+        if (q.is_disk && excess(q) <= 0) continue;
         if (!q.is_disk) return p;
         if (excess(q) > most) {
             most = excess(q);
@@ -139,7 +139,7 @@ PanelPatch Layout::joined(int a, int b, const Border& border, std::vector<int>& 
 bool Layout::try_merge(int a, int b, const Border& border) {
     std::vector<int> faces;
     const PanelPatch patch = joined(a, b, border, faces);
-    if (!patch.is_disk() || static_cast<int>(corner_nodes(patch).size()) > rules_.max_corners) return false;
+    if (!patch.is_disk() || static_cast<int>(corner_nodes(patch, rules_.care).size()) > rules_.max_corners) return false;
     const double allowed = std::max(rules_.max_distortion, a == b ? quality(a).p95 : 0.);
     PanelQuality q = look_at(patch, rules_, std::min(calibration_of(quality(a)), calibration_of(quality(b))));
     if (q.p95 > 1.4 * allowed) return false;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -24,6 +25,7 @@ public:
     struct Flat {
         double p95 = 0, solidity = 1;
         bool overlaps = false;
+        double clearance = std::numeric_limits<double>::infinity();   // m, see flat_outline.hpp
         bool failed = false;   // cannot be laid flat without folds
     };
     using Key = std::uint64_t;

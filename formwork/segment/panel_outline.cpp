@@ -9,7 +9,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr double junction_turn = 40 * degree, corner_turn = 50 * degree;
-constexpr double arm_share = 1. / 32, arm_edges = 6, longest_arm = 1. / 8;   // of the loop; edges of mean length; of the loop
+constexpr double arm_share = 1. / 16, arm_edges = 4, longest_arm = 1. / 8;   // of the loop; edges of mean length; of the loop
 
 /// One border loop of a patch: how far round its nodes lie, and how the outline turns there.
 class OutlineLoop {
@@ -28,10 +28,10 @@ public:
     double turn(int i) const { return seen_[i]; }
 
     /// Nodes at which the outline turns most, more than `corner_turn`, and more than within half an arm of it.
-    std::vector<int> corners() const {
+    std::vector<int> corners(double care) const {
         std::vector<int> order, chosen;
         for (int i = 0; i < size(); ++i)
-            if (std::abs(seen_[i]) > (patch_.junction[loop_[i]] ? junction_turn : corner_turn)) order.push_back(i);
+            if (std::abs(seen_[i]) > care * (patch_.junction[loop_[i]] ? junction_turn : corner_turn)) order.push_back(i);
         const auto weight = [&](int i) { return std::abs(seen_[i]) + 0.1 * std::abs(turn_[i]); };   // among equals, the node that turns itself
         std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return weight(i) > weight(j); });
         std::vector<char> covered(loop_.size(), 0);
@@ -86,22 +86,23 @@ private:
 
 }  // namespace
 
-std::vector<int> corner_nodes(const PanelPatch& p) {
+std::vector<int> corner_nodes(const PanelPatch& p, double care) {
     std::vector<int> nodes;
     for (const auto& loop : p.topology.boundary_loops)
-        for (int i : OutlineLoop(p, loop).corners()) nodes.push_back(loop[i]);
+        for (int i : OutlineLoop(p, loop).corners(care)) nodes.push_back(loop[i]);
     return nodes;
 }
 
-OutlineShape outline_shape(const PanelPatch& p, double reach) {
+OutlineShape outline_shape(const PanelPatch& p, double reach, double care) {
     constexpr double sharp = 70 * degree;   // turn of a corner that may be a tip
     OutlineShape shape;
     for (const auto& nodes : p.topology.boundary_loops) {
         const OutlineLoop loop(p, nodes);
-        for (int i : loop.corners()) {
+        for (int i : loop.corners(care)) {
             ++shape.corners;
             if (loop.turn(i) < 0) ++shape.inner_corners;
             if (loop.turn(i) > sharp) shape.sharpest = std::min({shape.sharpest, std::numbers::pi - loop.turn(i), loop.opening(i, reach)});
+            if (p.junction[nodes[i]]) shape.sharpest = std::min(shape.sharpest, boundary_angle(p, nodes[i]));
         }
     }
     shape.sharpest = std::max(0., shape.sharpest);

@@ -8,10 +8,12 @@ namespace formwork {
 
 /// Corners of a patch: places where the outline, seen over an arm's length, turns within the surface by more than 50°, or by
 /// more than 40° at a junction. The turns within the arm are summed, nearer ones weighing more, so that the teeth of a ragged
-/// rim, noise, and steps shorter than an arm cancel, and a corner counts once however many nodes share it. The arm is 1/32 of
-/// the loop, and at least six edges (but not more than 1/8 of the loop). Turns of seams that were asked for do not count.
-/// Local node numbers, along the boundary loops.
-std::vector<int> corner_nodes(const PanelPatch& patch);
+/// rim, noise, and steps shorter than an arm cancel, and a corner counts once however many nodes share it. The arm is 1/16 of
+/// the loop, and at least four edges (but not more than 1/8 of the loop). Turns of seams that were asked for do not count.
+/// @param care  a search that must still keep the bound once its seams are straightened counts corners from `care` times
+///              these turns on, care < 1
+/// @returns local node numbers, along the boundary loops
+std::vector<int> corner_nodes(const PanelPatch& patch, double care = 1);
 
 /// What makes an outline easy or hard to sew.
 struct OutlineShape {
@@ -21,6 +23,7 @@ struct OutlineShape {
 };
 /// @param reach  m of outline on either side over which the opening of a corner is measured: a long thin tip counts
 ///               as sharp whatever the angle at its very end
-OutlineShape outline_shape(const PanelPatch& patch, double reach);
+/// @param care  as for corner_nodes
+OutlineShape outline_shape(const PanelPatch& patch, double reach, double care = 1);
 
 }  // namespace formwork

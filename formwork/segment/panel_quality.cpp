@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "arcsim/base/error.hpp"
+#include "formwork/segment/flat_outline.hpp"
 
 namespace formwork {
 namespace {
@@ -13,37 +14,16 @@ constexpr double least_calibration = 0.4;
 constexpr double usual_calibration = 0.75;   // measured stretch over estimate, typical of panels of mixed shape
 constexpr int estimate_cells = 400;
 
-/// Area of a flat outline over that of its convex hull (Andrew's monotone chain).
-double solidity_of(const std::vector<Vector2d>& outline) {
-    const auto turn = [](const Vector2d& a, const Vector2d& b, const Vector2d& c) {
-        return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
-    };
-    std::vector<Vector2d> points = outline;
-    double area = 0;
-    for (std::size_t i = 0; i < outline.size(); ++i) area += turn(Vector2d::Zero(), outline[i], outline[(i + 1) % outline.size()]);
-    std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
-        return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
-    });
-    double hull = 0;   // twice its area, like the other
-    for (int half = 0; half < 2; ++half) {
-        std::vector<Vector2d> chain;
-        for (const Vector2d& p : points) {
-            while (chain.size() > 1 && turn(chain[chain.size() - 2], chain.back(), p) <= 0) chain.pop_back();
-            chain.push_back(p);
-        }
-        for (std::size_t i = 0; i + 1 < chain.size(); ++i) hull += turn(Vector2d::Zero(), chain[i], chain[i + 1]);
-        std::reverse(points.begin(), points.end());
-    }
-    return hull > 0 ? std::abs(area) / hull : 1;
-}
-
-PanelMemory::Flat lay_flat(const PanelPatch& patch, const FlattenParams& params) {
+PanelMemory::Flat lay_flat(const PanelPatch& patch, const FlattenParams& params, double min_width) {
     try {
         const FlattenResult flat = flatten_disk(patch.surface, patch.topology.boundary_loops.front(), params);
         std::vector<Vector2d> outline;
         for (int v : patch.topology.boundary_loops.front()) outline.push_back(flat.u[v]);
-        return {flat.stretch.p95, solidity_of(outline), !outline_crossings(outline, 1).empty(), false};
+        return {.p95 = flat.stretch.p95, .solidity = solidity(outline), .overlaps = !outline_crossings(outline, 1).empty(),
+                .clearance = clearance(outline, min_width)};
     } catch (const arcsim::NumericalError&) {
+        return {.failed = true};
+    } catch (const arcsim::InputError&) {   // a face that cutting left without area: the search goes on, repair may mend it
         return {.failed = true};
     }
 }
@@ -62,7 +42,7 @@ PanelQuality look_at(const PanelPatch& patch, const SplitRules& rules, double ca
     q.p95 = std::numeric_limits<double>::infinity();
     if (!q.is_disk) return q;
     q.width = patch_width(patch);
-    q.shape = outline_shape(patch, rules.min_width);
+    q.shape = outline_shape(patch, rules.min_width, rules.care);
     q.corners = q.shape.corners;
     const auto [known, is_new] = rules.memory->estimate.try_emplace(PanelMemory::key_of(patch.surface));
     if (is_new) known->second = StretchModel(patch, estimate_cells).whole().p95;
@@ -77,13 +57,13 @@ void measure_flat(const PanelPatch& patch, const SplitRules& rules, PanelQuality
     const auto [known, is_new] =
         rules.memory->flat.try_emplace(PanelMemory::key_of(patch.surface) + static_cast<PanelMemory::Key>(rules.flattening.max_iterations));
     if (is_new) {
-        known->second = lay_flat(patch, rules.flattening);
+        known->second = lay_flat(patch, rules.flattening, rules.min_width);
         rules.effort->spent += patch.surface.n_faces();
     }
     const PanelMemory::Flat& flat = known->second;
     q.p95 = flat.failed ? std::max(q.estimate, hopeless * rules.max_distortion) : flat.p95;   // as bad as it gets
     q.solidity = flat.solidity;
-    q.overlaps = flat.overlaps;
+    q.overlaps = flat.overlaps || flat.clearance < rules.clearance;
 }
 
 double calibration_of(const PanelQuality& q) {
@@ -92,7 +72,7 @@ double calibration_of(const PanelQuality& q) {
 
 double excess_of(const PanelQuality& q, const SplitRules& rules) {
     if (!q.is_disk) return 10 * q.area;
-    return q.area * (std::max(0., q.p95 / rules.max_distortion - 1) + q.overlaps);
+    return q.area * (std::max(0., q.p95 / rules.max_distortion - 1) + q.overlaps + 0.2 * std::max(0, q.corners - rules.max_corners));
 }
 
 bool keeps_bounds(const PanelQuality& q, const SplitRules& rules) {

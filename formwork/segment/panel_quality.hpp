@@ -30,7 +30,8 @@ void measure_flat(const PanelPatch& patch, const SplitRules& rules, PanelQuality
 /// Measured stretch over estimate; a typical value for panels that were not laid flat.
 double calibration_of(const PanelQuality& q);
 
-/// How much stretch beyond the bound a panel holds: area times the relative excess, m².
+/// How much stretch beyond the bound a panel holds: area times the relative excess, m². An outline that crosses itself and
+/// corners beyond max_corners count as stretch does.
 double excess_of(const PanelQuality& q, const SplitRules& rules);
 
 /// A disk with few corners that lies flat within the bound.

@@ -40,7 +40,7 @@ struct BorderPlaces {
     std::vector<char> is_corner;   // per node
     std::vector<int> loop_size;
 
-    explicit BorderPlaces(const PanelPatch& p)
+    BorderPlaces(const PanelPatch& p, double care)
         : loop(p.node.size(), -1), place(p.node.size(), 0), is_corner(p.node.size(), 0) {
         for (std::size_t l = 0; l < p.topology.boundary_loops.size(); ++l) {
             const auto& nodes = p.topology.boundary_loops[l];
@@ -50,7 +50,7 @@ struct BorderPlaces {
                 place[nodes[i]] = static_cast<double>(i);
             }
         }
-        for (int v : corner_nodes(p)) is_corner[v] = 1;
+        for (int v : corner_nodes(p, care)) is_corner[v] = 1;
     }
     double place_of(const CurvePoint& q) const {
         if (q.is_node()) return place[q.a];
@@ -136,7 +136,7 @@ Pieces cut_pieces(const PanelPatch& p, const Curve& curve) {
 class Search {
 public:
     Search(const PanelPatch& patch, const SurfaceField& field, const SplitRules& rules)
-        : patch_(patch), rules_(rules), places_(patch),
+        : patch_(patch), rules_(rules), places_(patch, rules.care),
           graph_(patch.surface, patch.topology, field, rules.drift, patch.surface.n_faces() < 6000 ? 2 : 1),
           model_(patch, trial_cells), is_disk_(patch.is_disk()), is_closed_(patch.topology.boundary_loops.empty()) {
         starts_ = start_nodes();

@@ -17,6 +17,8 @@ struct SplitRules {
     double min_width = 0.03;        // m, of every piece
     double max_distortion = 0.05;   // of the flat pattern; sets what counts as flat enough
     int max_corners = 6;
+    double care = 1;                // in what counts as a corner, see corner_nodes
+    double clearance = 0;           // m: a flat piece with a narrower gap between two of its parts overlaps itself
     int trials = 24;                // seeds of candidate curves per panel
     double spacing = 0;             // m between the middles of different cuts; 0: a quarter of min_width
     FlattenParams flattening = FlattenParams::fast();   // by which panels are judged
