@@ -33,9 +33,9 @@ double solidity(const std::vector<Vector2d>& outline) {
     return hull > 0 ? std::abs(area) / hull : 1;
 }
 
-double clearance(const std::vector<Vector2d>& outline, double along) {
+OutlineGaps outline_gaps(const std::vector<Vector2d>& outline, double reach) {
     const int n = static_cast<int>(outline.size());
-    const auto at = [&](int i) -> const Vector2d& { return outline[(i + n) % n]; };
+    const auto at = [&](int i) -> const Vector2d& { return outline[i % n]; };
     std::vector<double> place(n + 1, 0);
     double area = 0;
     for (int i = 0; i < n; ++i) {
@@ -43,18 +43,19 @@ double clearance(const std::vector<Vector2d>& outline, double along) {
         area += turn(Vector2d::Zero(), at(i), at(i + 1));
     }
     const double side = area < 0 ? -1 : 1;   // of the inside
-    double least = std::numeric_limits<double>::infinity();
+    OutlineGaps gaps{std::numeric_limits<double>::infinity(), 1};
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j) {
             const Vector2d &p = at(i), &a = at(j), &b = at(j + 1);
-            if (side * turn(a, b, p) > 0) continue;   // seen from this side, through the inside
+            const bool is_inside = side * turn(a, b, p) > 0;   // seen from this side
             const double t = std::clamp((p - a).dot(b - a) / std::max((b - a).squaredNorm(), 1e-300), 0., 1.);
             const double distance = (p - a - t * (b - a)).norm();
-            if (distance >= least) continue;
-            const double apart = std::abs(place[j] + t * (place[j + 1] - place[j]) - place[i]);
-            if (std::min(apart, place[n] - apart) > along) least = distance;
+            if (distance >= (is_inside ? 2 * reach * gaps.neck : gaps.inlet)) continue;
+            const double way = std::abs(place[j] + t * (place[j + 1] - place[j]) - place[i]), apart = std::min(way, place[n] - way);
+            if (is_inside && apart > 0.5 * reach) gaps.neck = std::min(gaps.neck, distance / std::min(apart, 2 * reach));
+            if (!is_inside && apart > reach) gaps.inlet = distance;
         }
-    return least;
+    return gaps;
 }
 
 }  // namespace formwork

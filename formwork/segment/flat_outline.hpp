@@ -11,9 +11,13 @@ using arcsim::Vector2d;
 /// Area of a flat outline over that of its convex hull: 1 for a convex piece, small for snakes and hooks.
 double solidity(const std::vector<Vector2d>& outline);
 
-/// Width of the narrowest gap between two parts of an outline, m: the least distance through the outside between a corner and
-/// a side that are more than `along` m apart on the outline. Zero or next to it: the piece touches itself when it is cut.
-/// Infinite for a convex piece.
-double clearance(const std::vector<Vector2d>& outline, double along);
+/// Where parts of a flat outline that are far apart along it come near each other.
+struct OutlineGaps {
+    double inlet;   // m: narrowest through the outside; next to zero: the piece touches itself. Infinite for a convex piece
+    double neck;    // narrowest through the inside, over the way along the outline (at most 2 `reach`): the sine of half the
+                    // opening of a tip, and small, too, where a flap hangs on a narrow neck. 1 when there is none
+};
+/// @param reach  m: parts less than that apart along the outline do not count for an inlet, less than half of it not for a neck
+OutlineGaps outline_gaps(const std::vector<Vector2d>& outline, double reach);
 
 }  // namespace formwork

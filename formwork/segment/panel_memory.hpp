@@ -6,6 +6,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "formwork/segment/flat_outline.hpp"
 #include "formwork/segment/panel_patch.hpp"
 
 namespace formwork {
@@ -25,7 +26,7 @@ public:
     struct Flat {
         double p95 = 0, solidity = 1;
         bool overlaps = false;
-        double clearance = std::numeric_limits<double>::infinity();   // m, see flat_outline.hpp
+        OutlineGaps gaps{std::numeric_limits<double>::infinity(), 1};
         bool failed = false;   // cannot be laid flat without folds
     };
     using Key = std::uint64_t;

@@ -18,7 +18,7 @@ std::vector<int> corner_nodes(const PanelPatch& patch, double care = 1);
 /// What makes an outline easy or hard to sew.
 struct OutlineShape {
     int corners = 0;
-    double sharpest = 3.1416;   // rad: least opening of a corner, seen over a stretch of outline
+    double sharpest = 3.1416;   // rad: least opening of a corner, seen over a stretch of outline; necks count once the panel is flat
     int inner_corners = 0;      // of the corners, those that turn inwards: the neighbour's tip has to be set into them
 };
 /// @param reach  m of outline on either side over which the opening of a corner is measured: a long thin tip counts

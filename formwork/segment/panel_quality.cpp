@@ -1,10 +1,10 @@
 #include "formwork/segment/panel_quality.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "arcsim/base/error.hpp"
-#include "formwork/segment/flat_outline.hpp"
 
 namespace formwork {
 namespace {
@@ -20,7 +20,7 @@ PanelMemory::Flat lay_flat(const PanelPatch& patch, const FlattenParams& params,
         std::vector<Vector2d> outline;
         for (int v : patch.topology.boundary_loops.front()) outline.push_back(flat.u[v]);
         return {.p95 = flat.stretch.p95, .solidity = solidity(outline), .overlaps = !outline_crossings(outline, 1).empty(),
-                .clearance = clearance(outline, min_width)};
+                .gaps = outline_gaps(outline, min_width)};
     } catch (const arcsim::NumericalError&) {
         return {.failed = true};
     } catch (const arcsim::InputError&) {   // a face that cutting left without area: the search goes on, repair may mend it
@@ -63,7 +63,8 @@ void measure_flat(const PanelPatch& patch, const SplitRules& rules, PanelQuality
     const PanelMemory::Flat& flat = known->second;
     q.p95 = flat.failed ? std::max(q.estimate, hopeless * rules.max_distortion) : flat.p95;   // as bad as it gets
     q.solidity = flat.solidity;
-    q.overlaps = flat.overlaps || flat.clearance < rules.clearance;
+    q.overlaps = flat.overlaps || flat.gaps.inlet < rules.clearance;
+    q.shape.sharpest = std::min(q.shape.sharpest, 2 * std::asin(flat.gaps.neck));
 }
 
 double calibration_of(const PanelQuality& q) {
