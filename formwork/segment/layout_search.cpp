@@ -146,6 +146,7 @@ bool Layout::try_merge(int a, int b, const Border& border) {
     formwork::measure_flat(patch, rules_, q);
     if (q.p95 > allowed || (q.overlaps && a != b)) return false;
     if (q.solidity < std::min({least_solidity, quality(a).solidity, quality(b).solidity})) return false;
+    if (panel_cost(q, rules_) > panel_cost(quality(a), rules_) + (a != b ? panel_cost(quality(b), rules_) : 0)) return false;
     for (const auto& [i, j] : border.edges) cut_.unmark_seam(i, j);
     for (int f : faces) panel_[f] = a;
     if (a != b) panels_[b].alive = false;
