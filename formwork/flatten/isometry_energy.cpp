@@ -9,43 +9,35 @@ namespace formwork {
 namespace {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Matrix46d = Eigen::Matrix<double, 4, 6>;
 
-/// vec(F) = B du with F = [u1-u0, u2-u0] D⁻¹, columns of F stacked.
-Matrix46d strain_map(const Matrix2d& d) {
-    Matrix46d b = Matrix46d::Zero();
-    for (int column = 0; column < 2; ++column)
-        for (int axis = 0; axis < 2; ++axis) {
-            b(2 * column + axis, 2 + axis) = d(0, column);
-            b(2 * column + axis, 4 + axis) = d(1, column);
-            b(2 * column + axis, axis) = -d(0, column) - d(1, column);
-        }
-    return b;
+/// F = q R + r S with a rotation R and a reflection S: the singular values are q + r and q - r (with the determinant's sign),
+/// and (R + S) / 2 and (R - S) / 2 the products of their vectors.
+struct Rotations {
+    double q, r;
+    Matrix2d R, S;
+};
+
+Rotations split_rotation(const Matrix2d& f) {
+    const double e = (f(0, 0) + f(1, 1)) / 2, k = (f(1, 0) - f(0, 1)) / 2;
+    const double g = (f(0, 0) - f(1, 1)) / 2, h = (f(1, 0) + f(0, 1)) / 2;
+    Rotations d{std::sqrt(e * e + k * k), std::sqrt(g * g + h * h), Matrix2d::Identity(), Matrix2d::Identity()};
+    if (d.q > 0) d.R << e / d.q, -k / d.q, k / d.q, e / d.q;
+    if (d.r > 0)
+        d.S << g / d.r, h / d.r, h / d.r, -g / d.r;
+    else
+        d.S << 1, 0, 0, -1;
+    return d;
+}
+
+/// d<M, F>/du of a face's six coordinates, F = [u1-u0, u2-u0] D⁻¹.
+Vector6d pulled_back(const Matrix2d& m, const Matrix2d& inverse) {
+    const Matrix2d g = m * inverse.transpose();
+    Vector6d v;
+    v << -g.col(0) - g.col(1), g.col(0), g.col(1);
+    return v;
 }
 
 int local_dof(const Triangle& t, int k) { return 2 * t[k / 2] + k % 2; }
-
-/// Singular values with the sign of the determinant on the second one, F = U diag(s) Vᵀ, U and V rotations.
-struct SignedSvd {
-    Matrix2d u, v;
-    double s1, s2;
-};
-
-SignedSvd signed_svd(const Matrix2d& f) {
-    const double e = (f(0, 0) + f(1, 1)) / 2, g = (f(0, 0) - f(1, 1)) / 2;
-    const double h = (f(1, 0) + f(0, 1)) / 2, k = (f(1, 0) - f(0, 1)) / 2;
-    const double q = std::hypot(e, k), r = std::hypot(g, h);
-    const double a1 = std::atan2(h, g), a2 = std::atan2(k, e);
-    const double theta = (a2 - a1) / 2, phi = (a2 + a1) / 2;
-    SignedSvd svd;
-    svd.u << std::cos(phi), -std::sin(phi), std::sin(phi), std::cos(phi);
-    svd.v << std::cos(theta), std::sin(theta), -std::sin(theta), std::cos(theta);
-    svd.s1 = q + r;
-    svd.s2 = q - r;
-    return svd;
-}
-
-Eigen::Vector4d stacked(const Matrix2d& m) { return {m(0, 0), m(1, 0), m(0, 1), m(1, 1)}; }
 
 double slope(double s) { return 2 * s - 2 / (s * s * s); }        // of s² + 1/s²
 double curvature(double s) { return 2 + 6 / (s * s * s * s); }
@@ -64,8 +56,9 @@ IsometryEnergy::IsometryEnergy(const std::vector<Triangle>& faces, const std::ve
 
     find_pattern(n);
 
-    double sum = 0;   // at an isometry the Hessian per face is close to 8 A BᵀB
-    for (std::size_t f = 0; f < faces_.size(); ++f) sum += 8 * weight_[f] * strain_map(inverse_[f]).squaredNorm();
+    double sum = 0;   // at an isometry the Hessian per face is close to 8 A BᵀB, vec(F) = B du
+    for (std::size_t f = 0; f < faces_.size(); ++f)
+        sum += 16 * weight_[f] * (inverse_[f].squaredNorm() + inverse_[f].colwise().sum().squaredNorm());
     diagonal_scale_ = sum / (2 * n);
 }
 
@@ -173,35 +166,35 @@ double IsometryEnergy::assemble(const VectorXd& u, double shift, VectorXd& gradi
     double sum = 0;
     for (std::size_t f = 0; f < faces_.size(); ++f) {
         const Triangle& t = faces_[f];
-        const SignedSvd d = signed_svd(deformation(u, static_cast<int>(f)));
-        const double e = d.s1 * d.s1 + d.s2 * d.s2 + 1 / (d.s1 * d.s1) + 1 / (d.s2 * d.s2) - 4;
+        const Rotations d = split_rotation(deformation(u, static_cast<int>(f)));
+        const double s1 = d.q + d.r, s2 = d.q - d.r;
+        const double e = s1 * s1 + s2 * s2 + 1 / (s1 * s1) + 1 / (s2 * s2) - 4;
         sum += weight_[f] * (e + peak_ * e * e);
         const double slope_of_peak = 1 + 2 * peak_ * e;   // d(e + k e²)/de
-        const Matrix46d b = strain_map(inverse_[f]);
 
         // Eigenmatrices of the energy in the frame of the singular vectors.
-        const Vector2d one(1, 0), two(0, 1);
-        const Matrix2d first = d.u * (one * one.transpose()) * d.v.transpose();
-        const Matrix2d second = d.u * (two * two.transpose()) * d.v.transpose();
-        const Matrix2d twist = d.u * (two * one.transpose() - one * two.transpose()) * d.v.transpose() * std::sqrt(0.5);
-        const Matrix2d flip = d.u * (two * one.transpose() + one * two.transpose()) * d.v.transpose() * std::sqrt(0.5);
-        const double g1 = slope(d.s1), g2 = slope(d.s2);
-        const double twist_value = std::max(0.0, (g1 + g2) / (d.s1 + d.s2));
-        const double p = d.s1 * d.s2;   // (g1 - g2) / (s1 - s2) without the cancellation
-        const double flip_value = 2 + 2 * (d.s1 * d.s1 + p + d.s2 * d.s2) / (p * p * p);
+        const Matrix2d first = 0.5 * (d.R + d.S), second = 0.5 * (d.R - d.S);
+        Matrix2d quarter;
+        quarter << 0, -1, 1, 0;
+        const Matrix2d twist = std::sqrt(0.5) * quarter * d.R, flip = std::sqrt(0.5) * quarter * d.S;
+        const double g1 = slope(s1), g2 = slope(s2);
+        const double twist_value = std::max(0.0, (g1 + g2) / (s1 + s2));
+        const double p = s1 * s2;   // (g1 - g2) / (s1 - s2) without the cancellation
+        const double flip_value = 2 + 2 * (s1 * s1 + p + s2 * s2) / (p * p * p);
 
-        const Vector6d gradient_of_e = b.transpose() * (g1 * stacked(first) + g2 * stacked(second));
+        const Vector6d gradient_of_e = pulled_back(g1 * first + g2 * second, inverse_[f]);
         const Vector6d gradient_f = weight_[f] * slope_of_peak * gradient_of_e;
         Eigen::Matrix<double, 6, 6> h = Eigen::Matrix<double, 6, 6>::Zero();
-        const auto add = [&](double value, const Matrix2d& mode) {
-            const Vector6d m = b.transpose() * stacked(mode);
-            h.noalias() += weight_[f] * slope_of_peak * value * m * m.transpose();
+        const auto add = [&](double value, const Vector6d& m) {
+            for (int i = 0; i < 6; ++i)
+                for (int j = 0; j <= i; ++j) h(i, j) += value * m[i] * m[j];
         };
-        add(curvature(d.s1), first);
-        add(curvature(d.s2), second);
-        add(twist_value, twist);
-        add(flip_value, flip);
-        if (peak_ > 0) h.noalias() += 2 * weight_[f] * peak_ * gradient_of_e * gradient_of_e.transpose();
+        const double w = weight_[f] * slope_of_peak;
+        add(w * curvature(s1), pulled_back(first, inverse_[f]));
+        add(w * curvature(s2), pulled_back(second, inverse_[f]));
+        add(w * twist_value, pulled_back(twist, inverse_[f]));
+        add(w * flip_value, pulled_back(flip, inverse_[f]));
+        if (peak_ > 0) add(2 * weight_[f] * peak_, gradient_of_e);
 
         for (int k = 0; k < 6; ++k) gradient[local_dof(t, k)] += gradient_f[k];
         int next = 0;

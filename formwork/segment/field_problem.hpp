@@ -64,13 +64,15 @@ public:
     /// no face changes its branch. Energy never rises.
     void relax(FieldState& s) const;
 
-    /// relax and rounding in turn until no period changes.
+    /// Solving for the angles, and rounding periods and branches, in turn until none changes.
     void alternate(FieldState& s) const;
 
     const SparseCholesky& factor() const { return factor_; }
     const FieldProblem& problem() const { return problem_; }
 
 private:
+    double solve(FieldState& s) const;
+
     const FieldProblem& problem_;
     SparseCholesky factor_;
 };

@@ -22,7 +22,8 @@ constexpr int faces_per_panel = 200;
 constexpr double work_per_face = 60;     // of the mesh that is searched
 constexpr double search_share = 0.7;     // of all work; the rest is for what mending the seams did
 constexpr int repair_rounds = 3;
-constexpr FlattenParams thorough{60, 1e-4};   // p95 is settled to a few thousandths of itself
+constexpr FlattenParams polishing{30, 1e-3};   // p95 is settled to a hundredth of itself
+constexpr FlattenParams thorough{60, 1e-4};   // to a few thousandths
 constexpr double margin = 0.93, polish_margin = 0.96;   // of the bound, in the search: what is done to the mesh later costs some
 
 constexpr double corner_care = 0.9;       // corners that nearly count do once a seam is straightened
@@ -55,7 +56,7 @@ enum class Stage { search, polish, verdict };
 
 Layout layout_on(const LayoutJob& job, CutMesh cut, int max_panels, Stage stage) {
     SplitRules rules = job.rules;
-    if (stage != Stage::search) rules.flattening = thorough;
+    if (stage != Stage::search) rules.flattening = stage == Stage::polish ? polishing : thorough;
     if (stage != Stage::verdict) {
         rules.max_distortion *= stage == Stage::search ? margin : polish_margin;
         rules.care = corner_care;

@@ -115,7 +115,7 @@ private:
     };
     void restore(const State& s);
     std::vector<int> hard_panels(Rework what);
-    enum class GroupSize { pair, triple, ring };
+    enum class GroupSize { alone, pair, triple, ring };
     std::vector<std::vector<int>> groups_around(int seed, GroupSize size, const Borders& all);
     GroupTrace trace_of(const std::vector<int>& group);
     double group_floor(int most_panels);

@@ -27,14 +27,16 @@ double Layout::cost() {
     double length = 0, area = 0, sum = 0;
     for (int f = 0; f < s.n_faces(); ++f) {
         if (panels_[panel_[f]].frozen) continue;
-        area += arcsim::face_area(s, f);
         for (int k = 0; k < 3; ++k) {
             const int a = s.faces[f][k], b = s.faces[f][(k + 1) % 3];
             if (a < b && cut_.is_seam_at(f, k)) length += (s.x[a] - s.x[b]).norm();
         }
     }
     for (int p = 0; p < static_cast<int>(panels_.size()); ++p)
-        if (panels_[p].alive && !panels_[p].frozen) sum += panel_cost(quality(p), rules_);
+        if (panels_[p].alive && !panels_[p].frozen) {
+            sum += panel_cost(quality(p), rules_);
+            area += quality(p).area;
+        }
     return sum + length / std::sqrt(area);
 }
 
@@ -44,7 +46,7 @@ bool Layout::keeps_bounds() {
     return n_panels() <= limits_.max_panels;
 }
 
-/// The panel with one, two or all of its neighbours, smallest groups first.
+/// The panel alone, where another may be added, or with one, two or all of its neighbours; smallest groups first.
 std::vector<std::vector<int>> Layout::groups_around(int seed, GroupSize size, const Borders& all) {
     std::vector<std::pair<double, int>> next;
     for (const auto& [pair, border] : all) {
@@ -54,6 +56,7 @@ std::vector<std::vector<int>> Layout::groups_around(int seed, GroupSize size, co
     std::sort(next.begin(), next.end());
     const std::size_t n = std::min<std::size_t>(next.size(), most_neighbours);
     std::vector<std::vector<int>> groups;
+    if (size == GroupSize::alone && n_panels() < limits_.max_panels && !formwork::keeps_bounds(quality(seed), rules_)) groups.push_back({seed});
     if (size == GroupSize::pair)
         for (std::size_t i = 0; i < n; ++i) groups.push_back({seed, next[i].second});
     if (size == GroupSize::triple)
@@ -183,7 +186,7 @@ bool Layout::rework(Rework what, double most) {
     const auto step = [&] {
         const Borders all = borders();
         const std::vector<int> seeds = hard_panels(what);
-        for (GroupSize size : {GroupSize::pair, GroupSize::triple, GroupSize::ring})
+        for (GroupSize size : {GroupSize::alone, GroupSize::pair, GroupSize::triple, GroupSize::ring})
             for (int seed : seeds) {
                 const double share = formwork::keeps_bounds(quality(seed), rules_) ? taste_share * most : most;
                 for (const auto& group : groups_around(seed, size, all))

@@ -4,28 +4,20 @@
 #include <bit>
 #include <cmath>
 
+#include "formwork/segment/mixed_bits.hpp"
+
 namespace formwork {
-namespace {
-
-/// Mixes the bits of a number [Steele et al. 2014, SplitMix64].
-std::uint64_t mixed(std::uint64_t z) {
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ (z >> 31);
-}
-
-}  // namespace
 
 PanelMemory::Key PanelMemory::key_of(const Surface& s) {
     std::vector<std::uint64_t> place;
     place.reserve(s.x.size());
     for (const Vector3d& x : s.x) {
         std::uint64_t h = 0x9E3779B97F4A7C15u;
-        for (int k = 0; k < 3; ++k) h = mixed(h + std::bit_cast<std::uint64_t>(x[k]));
+        for (int k = 0; k < 3; ++k) h = mixed_bits(h + std::bit_cast<std::uint64_t>(x[k]));
         place.push_back(h);
     }
     Key key = s.faces.size();
-    for (const arcsim::Triangle& t : s.faces) key += mixed(place[t[0]] + place[t[1]] + place[t[2]]);   // sums: in any order
+    for (const arcsim::Triangle& t : s.faces) key += mixed_bits(place[t[0]] + place[t[1]] + place[t[2]]);   // sums: in any order
     return key;
 }
 

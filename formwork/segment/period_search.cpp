@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <queue>
-#include <unordered_map>
+
+#include "formwork/segment/mixed_bits.hpp"
 
 namespace formwork {
 namespace {
@@ -55,14 +56,23 @@ double PeriodSearch::cost(const FieldState& state) const {
 
 double PeriodSearch::change(const FieldState& state, const std::vector<Step>& steps) const {
     double first = 0;
+    for (const Step& step : steps) first += step.sign * residual(problem_.edges[step.dual], state.theta, state.period[step.dual]);
+    return 2 * c * first + c * c * (static_cast<double>(steps.size()) - chain_norm(steps));
+}
+
+double PeriodSearch::chain_norm(const std::vector<Step>& steps) const {
+    std::uint64_t key = steps.size();   // of the chain either way round: a sum over its steps, signs by the lowest edge's
+    const int sign = std::min_element(steps.begin(), steps.end(), [](const Step& a, const Step& b) { return a.dual < b.dual; })->sign;
+    for (const Step& step : steps) key += mixed_bits(2 * static_cast<std::uint64_t>(step.dual) + (step.sign == sign));
+    const auto [known, is_new] = chain_norm_.try_emplace(key);
+    if (!is_new) return known->second;
     std::vector<SparseCholesky::Entry> b;
     for (const Step& step : steps) {
         const DualEdge& e = problem_.edges[step.dual];
-        first += step.sign * residual(e, state.theta, state.period[step.dual]);
         if (!problem_.fixed[e.i]) b.push_back({e.i, static_cast<double>(step.sign)});
         if (!problem_.fixed[e.j]) b.push_back({e.j, static_cast<double>(-step.sign)});
     }
-    return 2 * c * first + c * c * (static_cast<double>(steps.size()) - angles_.factor().energy_norm(b));
+    return known->second = angles_.factor().energy_norm(b);
 }
 
 double PeriodSearch::single_edge_rise(int dual) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <unordered_map>
+
 #include "formwork/segment/field_problem.hpp"
 
 namespace formwork {
@@ -41,6 +44,7 @@ private:
     };
 
     double change(const FieldState& state, const std::vector<Step>& steps) const;
+    double chain_norm(const std::vector<Step>& steps) const;
     double single_edge_rise(int dual);
     int count_change(const std::vector<int>& index4, const std::vector<Step>& steps) const;
     void add_edge_trials(const FieldState& state, const std::vector<int>& index4, std::vector<Trial>& list);
@@ -56,6 +60,7 @@ private:
     double price_;
     std::vector<std::vector<FanStep>> fans_;   // `edge` is the dual edge here
     std::vector<int> base4_;                   // per node: index4 if all periods were 0
+    mutable std::unordered_map<std::uint64_t, double> chain_norm_;   // bᵀA⁻¹b of the chains asked for so far: A never changes
     std::vector<double> rise_;                 // c² (1 - bᵀA⁻¹b) per dual edge; < 0: not computed yet
 };
 
