@@ -184,6 +184,14 @@ Layout judged(const LayoutJob& job, const CutMesh& cut) {
     return layout_on(job, mended(job, cut, singular), job.params.max_panels, Stage::verdict);
 }
 
+/// Darts where they help, on the mesh that is handed over; judged as before.
+Layout with_darts(const LayoutJob& job, Layout judged_layout) {
+    Layout layout = layout_on(job, judged_layout.cut(), job.params.max_panels, Stage::polish);
+    if (judged_layout.keeps_bounds() || !layout.add_darts()) return judged_layout;
+    Layout darted = judged(job, layout.cut());
+    return darted.cost() < judged_layout.cost() ? std::move(darted) : std::move(judged_layout);
+}
+
 /// The cheapest of a free layout and those that keep mirror planes. A symmetric bag is worth some panels.
 Found best_layout(const LayoutJob& job, const Base& base) {
     constexpr double worth_of_symmetry = 2;      // times the free layout's cost
@@ -247,13 +255,16 @@ Segmentation mend_and_hand_over(const LayoutJob& job, const CutMesh& cut, std::v
 Segmentation lay_out(const LayoutJob& job) {
     const Base base = base_mesh(job);
     Found found = best_layout(job, base);
-    if (!base.is_coarse) return hand_over(job, found.layout.cut(), std::move(found.candidates));
-    int n = 0;
-    const std::vector<int> panel = label_panels(found.layout.cut(), n);
-    if (auto cut = transfer_seams(found.layout.cut(), panel, n, job.s, job.topology))
-        return mend_and_hand_over(job, *cut, std::move(found.candidates));
-    found = best_layout(job, whole_mesh(job));   // panels too narrow for the coarse mesh
-    return hand_over(job, found.layout.cut(), std::move(found.candidates));
+    if (base.is_coarse) {
+        int n = 0;
+        const std::vector<int> panel = label_panels(found.layout.cut(), n);
+        if (auto cut = transfer_seams(found.layout.cut(), panel, n, job.s, job.topology))
+            found.layout = judged(job, *cut);
+        else
+            found = best_layout(job, whole_mesh(job));   // panels too narrow for the coarse mesh
+    }
+    const Layout layout = with_darts(job, std::move(found.layout));
+    return hand_over(job, layout.cut(), std::move(found.candidates));
 }
 
 }  // namespace formwork

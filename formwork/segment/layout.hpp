@@ -42,6 +42,9 @@ public:
     /// Lays out anew, with some of its neighbours, every panel that is out of bounds; with `Rework::all` those that are hard
     /// to sew, too. @param share  of all work that may be spent when this ends  @returns whether that changed anything
     bool rework(Rework what, double share = 1);
+    /// Gives a dart to every panel that stretches too much, where that takes at least half of the excess away.
+    /// @returns whether there was one
+    bool add_darts();
     /// Leaves out of the search every panel that lies on the far side of a plane.
     void keep_one_side(const Vector3d& point, const Vector3d& normal);
     /// Per face: 1 where the search went on.
@@ -93,6 +96,7 @@ private:
     void measure_flat(Trial& trial) const;
     bool refine(int most_panels);
     bool split(int panel, bool anyhow);
+    bool add_dart(int panel);
     int worst_panel();
 
     struct Border {

@@ -17,8 +17,9 @@ public:
     OutlineLoop(const PanelPatch& p, const std::vector<int>& loop) : patch_(p), loop_(loop), place_(loop.size() + 1, 0), turn_(loop.size()) {
         for (int i = 0; i < size(); ++i) {
             place_[i + 1] = place_[i] + (x(i + 1) - x(i)).norm();
-            turn_[i] = p.given[loop[i]] ? 0 : std::numbers::pi - boundary_angle(p, loop[i]);
+            turn_[i] = p.given[loop[i]] ? 0 : std::numbers::pi - angle_sum(p, loop[i]);
         }
+        close_darts();
         arm_ = length() * std::min(std::max(arm_share, arm_edges / size()), longest_arm);
         for (int i = 0; i < size(); ++i) seen_.push_back(turn_around(i));
     }
@@ -65,6 +66,21 @@ private:
             }
     }
 
+    int wrapped(int i) const { return (i % size() + size()) % size(); }
+
+    /// A dart is sewn before its panel is: its tip and sides do not turn, and the outline runs on over its mouth.
+    void close_darts() {
+        for (int tip = 0; tip < size(); ++tip) {
+            const auto is_shut = [&](int k) { return patch_.node[loop_[wrapped(tip - k)]] == patch_.node[loop_[wrapped(tip + k)]]; };
+            int mouth = 0;
+            while (2 * (mouth + 1) < size() && is_shut(mouth + 1)) ++mouth;
+            if (mouth == 0) continue;
+            const double both = turn_[wrapped(tip - mouth)] + turn_[wrapped(tip + mouth)] - std::numbers::pi;
+            for (int k = -mouth; k <= mouth; ++k) turn_[wrapped(tip + k)] = 0;
+            turn_[wrapped(tip - mouth)] = both;
+        }
+    }
+
     double turn_around(int i) const {
         double sum = 0;
         each_within(i, arm_, [&](int j, double gone) { sum += (1 - gone / arm_) * turn_[j]; });
@@ -102,7 +118,7 @@ OutlineShape outline_shape(const PanelPatch& p, double reach, double care) {
             ++shape.corners;
             if (loop.turn(i) < 0) ++shape.inner_corners;
             if (loop.turn(i) > sharp) shape.sharpest = std::min({shape.sharpest, std::numbers::pi - loop.turn(i), loop.opening(i, reach)});
-            if (p.junction[nodes[i]]) shape.sharpest = std::min(shape.sharpest, boundary_angle(p, nodes[i]));
+            if (p.junction[nodes[i]]) shape.sharpest = std::min(shape.sharpest, angle_sum(p, nodes[i]));
         }
     }
     shape.sharpest = std::max(0., shape.sharpest);

@@ -9,7 +9,8 @@ namespace formwork {
 /// Corners of a patch: places where the outline, seen over an arm's length, turns within the surface by more than 50°, or by
 /// more than 40° at a junction. The turns within the arm are summed, nearer ones weighing more, so that the teeth of a ragged
 /// rim, noise, and steps shorter than an arm cancel, and a corner counts once however many nodes share it. The arm is 1/16 of
-/// the loop, and at least four edges (but not more than 1/8 of the loop). Turns of seams that were asked for do not count.
+/// the loop, and at least four edges (but not more than 1/8 of the loop). Turns of seams that were asked for do not
+/// count, nor do darts, which are sewn before the panel is.
 /// @param care  a search that must still keep the bound once its seams are straightened counts corners from `care` times
 ///              these turns on, care < 1
 /// @returns local node numbers, along the boundary loops

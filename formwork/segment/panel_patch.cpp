@@ -56,7 +56,7 @@ double PanelPatch::border_length() const {
     return length;
 }
 
-double boundary_angle(const PanelPatch& p, int node) {
+double angle_sum(const PanelPatch& p, int node) {
     double angle = 0;
     for (int f : p.topology.node_faces[node])
         angle += corner_angle_at(p.surface, p.surface.faces[f], corner_of(p.surface.faces[f], node));

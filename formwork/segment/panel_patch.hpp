@@ -44,8 +44,8 @@ private:
 
 PanelPatch extract_patch(const CutMesh& cut, const std::vector<int>& faces);
 
-/// Interior angle of the patch at a boundary node, rad.
-double boundary_angle(const PanelPatch& patch, int node);
+/// Sum of the angles of the patch's faces at a node, rad: at a boundary node the interior angle.
+double angle_sum(const PanelPatch& patch, int node);
 
 /// Diameter of the largest disk in the patch, measured along edges: twice the largest distance to the border, m.
 double patch_width(const PanelPatch& patch);
