@@ -20,6 +20,11 @@ inline constexpr std::array warp_along_names{
     arcsim::EnumName{WarpAlong::largest_stretch, "largest_stretch", "the stiffer thread carries the larger stretch"},
     arcsim::EnumName{WarpAlong::smallest_stretch, "smallest_stretch", "warp across the larger stretch"}};
 
+enum class GrainTarget { inflated, sewn };
+inline constexpr std::array grain_target_names{
+    arcsim::EnumName{GrainTarget::inflated, "inflated", "the strain of the inflated bag, whose fabric is isotropic"},
+    arcsim::EnumName{GrainTarget::sewn, "sewn", "the tension of the woven bag that is sewn of the panels (it is filled once more for that)"}};
+
 enum class Corner { mitre, bevel };
 inline constexpr std::array corner_names{
     arcsim::EnumName{Corner::mitre, "mitre", "allowances meet in a point, up to mitre_limit"},
@@ -61,6 +66,7 @@ struct PanelParams {
     std::vector<SeamAllowance> allowances;
     Corner corners = Corner::mitre;
     double mitre_limit = 2;
+    GrainTarget grain = GrainTarget::inflated;
     WarpAlong warp = WarpAlong::largest_stretch;
     std::array<double, 2> compensation{0, 0};   // percent that a piece is cut smaller, along warp and weft
     bool stretch_compensation = false;
@@ -85,6 +91,7 @@ void visit(Archive& a, PanelParams& p) {
     a.list("allowances", p.allowances, "Seams whose allowance differs from the general one.");
     a.choice("corners", p.corners, corner_names, "Shape of the allowance at corners.");
     a.optional("mitre_limit", p.mitre_limit, "1", between(1, 10), "Longest mitre, in allowances; longer ones are bevelled.");
+    a.choice("grain", p.grain, grain_target_names, "What the grain of a panel follows.");
     a.choice("warp", p.warp, warp_along_names, "Which principal stretch the warp follows.");
     a.optional("compensation", p.compensation, "%", between(-20, 50),
                "Shrinkage of the pieces along warp and weft, so that the tightened cloth has the designed size.");

@@ -1,5 +1,9 @@
 #include "formwork/sew/recut.hpp"
 
+#include <algorithm>
+
+#include "formwork/sew/tension_directions.hpp"
+
 namespace formwork {
 
 PanelSet recut_panels(Segmentation& s, const PanelParams& params, const SewParams& sew,
@@ -9,11 +13,14 @@ PanelSet recut_panels(Segmentation& s, const PanelParams& params, const SewParam
     plain.compare.clear();
     plain.seams = SeamModel::shared;
     PanelSet set = make_panels(s, params);
-    for (int round = 1; round <= params.recut; ++round) {
+    const bool turns = params.grain == GrainTarget::sewn;
+    for (int round = 1; round <= std::max(params.recut, turns ? 1 : 0); ++round) {
         const auto report = [&](const std::string&, const IterationReport& r) {
             if (on_iteration) on_iteration(round, r);
         };
-        s.mesh.x = sew_bag(input(s, set.panels), plain, report).equilibrium.x;
+        const SewResult sewn = sew_bag(input(s, set.panels), plain, report);
+        if (params.recut > 0) s.mesh.x = sewn.equilibrium.x;
+        if (turns) s.direction = tension_directions(s.mesh, sewn, plain.material);
         set = make_panels(s, params);
     }
     return set;

@@ -40,7 +40,11 @@ namespace {
 /// Panels of the scene's layout, cut as often as it asks; the layout's nodes move to the shape that was cut last.
 PanelSet cut_as_asked(const StageContext& context, Segmentation& s) {
     const FormworkParams& f = context.scene.formwork;
-    if (f.panels.recut == 0) return make_panels(s, f.panels);
+    const bool turns = f.panels.grain == GrainTarget::sewn;
+    if (f.panels.recut == 0 && !turns) return make_panels(s, f.panels);
+    if (!f.sew && turns)
+        throw arcsim::InputError("/formwork/panels/grain: the grain is to follow the sewn bag, but the scene has no \"sew\" object. Add one, or set grain "
+                                 "to \"inflated\".");
     if (!f.sew)
         throw arcsim::InputError("/formwork/panels/recut: the panels are cut again from the sewn bag, but the scene has no \"sew\" object. Add one, or set "
                                  "recut to 0.");
@@ -71,6 +75,7 @@ JsonValue run_panels(const StageContext& context) {
     }
     if (scene.formwork.sew) info.fabric_density = scene.formwork.sew->density;
     const PatternFiles files = write_patterns(set, s, make_pattern(set, s, info), context.dir / "panels");
+    write_grain_directions(context.dir / "panels", s, scene.formwork.panels.grain == GrainTarget::inflated);
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     context.progress.end("panels: " + std::to_string(set.metrics.count) + " pieces, " + arcsim::format_short(set.metrics.cloth_area_m2) +
                          " m² of cloth, stretch distortion up to " + arcsim::format_short(100 * set.metrics.max_stretch_distortion, 2) +

@@ -74,9 +74,10 @@ ReportInput gather(const StageContext& context, const JsonValue& summary) {
     if (in.segmentation)
         for (const CandidateCurve& c : in.segmentation->candidates) in.candidates.push_back(c.points);
     if (has(summary, "panels")) {
-        const PanelSet set = make_panels(*in.segmentation, scene.formwork.panels);   // with all measures
+        const Segmentation cut = as_cut(*in.segmentation, context.dir / "panels");
+        const PanelSet set = read_panels(context.dir / "panels/sewn_rest.obj", cut);
         in.panels = set.panels;
-        in.sewing_order = report_steps(set, sewing_order(set, *in.segmentation, in.up));
+        in.sewing_order = report_steps(set, sewing_order(set, cut, in.up));
     }
     if (has(summary, "sew")) {
         in.sewn = arcsim::read_obj(context.dir / "sew/sewn.obj").x;

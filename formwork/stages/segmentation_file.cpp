@@ -134,6 +134,36 @@ Segmentation read_segmentation(const fs::path& folder) {
     return s;
 }
 
+Segmentation as_cut(Segmentation s, const fs::path& panels_folder) {
+    const fs::path rest = panels_folder / "sewn_rest.obj", file = panels_folder / "directions.csv";
+    const std::size_t n_nodes = s.mesh.x.size();
+    s.mesh.x = arcsim::read_obj(rest).x;
+    if (s.mesh.x.size() != n_nodes) throw InputError(rest.string() + ": belongs to another layout. Run the stage panels again.");
+    std::error_code ignored;
+    if (!fs::exists(file, ignored)) return s;
+    const CsvFile directions(file, {"face", "theta", "s1", "s2", "weight"});
+    if (directions.n_rows() != s.mesh.n_faces()) throw InputError(file.string() + ": belongs to another layout. Run the stage panels again.");
+    for (int r = 0; r < directions.n_rows(); ++r)
+        s.direction[directions.integer(r, 0, 0, s.mesh.n_faces())] = {directions.number(r, 1), directions.number(r, 2), directions.number(r, 3),
+                                                                      directions.number(r, 4)};
+    return s;
+}
+
+void write_grain_directions(const fs::path& panels_folder, const Segmentation& s, bool own) {
+    const fs::path file = panels_folder / "directions.csv";
+    std::error_code ignored;
+    if (own) {
+        fs::remove(file, ignored);
+        return;
+    }
+    CsvText text("face,theta,s1,s2,weight");
+    for (int f = 0; f < s.mesh.n_faces(); ++f) {
+        const DirectionData& d = s.direction[f];
+        text.add(f).add(d.theta).add(d.s1).add(d.s2).add(d.weight).end_row();
+    }
+    write_file_atomically(file, text.text());
+}
+
 PanelSet read_panels(const fs::path& sewn_rest, const Segmentation& s) {
     const arcsim::ClothMesh mesh = arcsim::read_obj(sewn_rest);
     PanelSet set;

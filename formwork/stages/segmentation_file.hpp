@@ -19,6 +19,14 @@ void write_segmentation(const std::filesystem::path& folder, const Segmentation&
 /// @throws InputError: a file is missing or broken, numbers do not fit together
 Segmentation read_segmentation(const std::filesystem::path& folder);
 
+/// The layout as its panels were cut: `panels/sewn_rest.obj` has the nodes, which `panels.recut` moves, and
+/// `panels/directions.csv` what the grain follows, where that is not the strain of the inflated bag.
+/// @throws InputError: the panels belong to another layout
+Segmentation as_cut(Segmentation s, const std::filesystem::path& panels_folder);
+
+/// Writes `panels/directions.csv` (face,theta,s1,s2,weight), or removes it when the grain follows the layout's own directions.
+void write_grain_directions(const std::filesystem::path& panels_folder, const Segmentation& s, bool own);
+
 /// The panels' flat shapes back from panels/sewn_rest.obj, whose verts stand panel after panel in the order of
 /// FlatPanel::u; measures of the panels are those that follow from the shapes.
 PanelSet read_panels(const std::filesystem::path& sewn_rest, const Segmentation& s);

@@ -32,10 +32,7 @@ JsonValue run_sew(const StageContext& context) {
     const SewParams& p = *scene.formwork.sew;
     const SewData data = read_sew_data(context);
     const Segmentation designed = read_segmentation(context.dir / "segment");
-    Segmentation s = designed;
-    s.mesh.x = arcsim::read_obj(context.dir / "panels" / "sewn_rest.obj").x;   // where the panels were cut from
-    if (s.mesh.x.size() != designed.mesh.x.size())
-        throw arcsim::InputError((context.dir / "panels/sewn_rest.obj").string() + ": belongs to another layout. Run the stage panels again.");
+    const Segmentation s = as_cut(designed, context.dir / "panels");
     const PanelSet set = read_panels(context.dir / "panels" / "sewn_rest.obj", s);
     SewInput input = data.input(scene, s, set.panels);
     input.target = target_shape(scene);

@@ -124,8 +124,7 @@ void study(const std::string& scene_file, const std::string& folder, int refinem
     const BagMesh mesh = load_bag_mesh(scene);
     const std::filesystem::path dir = folder;
     CutBag bag;
-    bag.s = read_segmentation(dir / "segment");
-    bag.s.mesh.x = arcsim::read_obj(dir / "panels/sewn_rest.obj").x;   // where the panels were cut from
+    bag.s = as_cut(read_segmentation(dir / "segment"), dir / "panels");
     bag.flat = flat_from_panels(bag.s, read_panels(dir / "panels/sewn_rest.obj", bag.s).panels);
     bag.inflated = carry_to_cut_mesh(bag.s, mesh.surface.faces, arcsim::read_obj(dir / "inflate/inflated.obj").x);
     bag.held = fixed_on_cut_mesh(bag.s, mesh.surface.faces, held_dofs(scene, mesh));

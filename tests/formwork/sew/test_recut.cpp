@@ -46,3 +46,33 @@ TEST_CASE("panels cut again from the sewn bag's shape fit it better: less distor
     REQUIRE(moved > 1e-4);
     REQUIRE(moved < 0.02);
 }
+
+TEST_CASE("a grain that follows the sewn bag's tension finds the axis and the hoops of a sock again, whatever it was told first") {
+    const SewnSock sock(0.1, 0.15, 14);
+    const SewInput all = sock.input(0);
+    const auto input = [&](const Segmentation& s, const std::vector<FlatPanel>& panels) {
+        return SewInput{s, panels, all.input_faces, all.inflated, all.input_fixed, all.up, all.plaster, {}, {}, {}};
+    };
+    Segmentation told = sock.cut;
+    for (DirectionData& d : told.direction) d.theta += 0.3;   // rad; 17 degrees
+    const auto off_axis = [&](PanelSet set) {                  // of the wall's panels, degrees
+        measure_panels(set, sock.cut);
+        double worst = 0;
+        for (int p = 0; p < 4; ++p) worst = std::max(worst, set.panels[p].grain_deviation_deg);
+        return worst;
+    };
+    PanelParams params;
+    Segmentation s = told;
+    const PanelSet askew = recut_panels(s, params, SewnSock::params(), input);
+    REQUIRE(off_axis(askew) == Approx(0.3 * 180 / M_PI));
+    const double shear = sew_bag(input(s, askew.panels), SewnSock::params()).weave.taut_mean_abs_shear;
+
+    params.grain = GrainTarget::sewn;
+    const PanelSet turned = recut_panels(s, params, SewnSock::params(), input);
+    INFO(off_axis(turned));
+    REQUIRE(off_axis(turned) < 0.4 * off_axis(askew));   // in one round: stiff yarns that are askew pull the tension after them
+    const double after = sew_bag(input(s, turned.panels), SewnSock::params()).weave.taut_mean_abs_shear;
+    INFO(shear);
+    REQUIRE(after < 0.7 * shear);
+    for (size_t i = 0; i < s.mesh.x.size(); ++i) REQUIRE(s.mesh.x[i] == sock.cut.mesh.x[i]);   // recut 0: the shape stays
+}
