@@ -18,8 +18,9 @@ namespace formwork {
 namespace {
 
 constexpr int enough_faces = 6000;       // for a layout of few panels: more only cost time
-constexpr int faces_per_panel = 200;
-constexpr double work_per_face = 60;     // of the mesh that is searched
+constexpr int faces_per_panel = 100;
+constexpr double least_work = 2.5e5;     // faces laid flat or searched for curves, see effort.hpp: 3 to 4 s
+constexpr double work_per_face = 12.5;   // of the input, where that is more: the work grows like the mesh
 constexpr double search_share = 0.7;     // of all work; the rest is for what mending the seams did
 constexpr int repair_rounds = 3;
 constexpr FlattenParams polishing{30, 1e-3};   // p95 is settled to a hundredth of itself
@@ -100,9 +101,9 @@ Layout polished(const LayoutJob& job, const CutMesh& cut, int max_panels, std::v
 }
 
 /// The same job with work of its own to spend. @param part  of the surface that is searched
-LayoutJob with_effort(const LayoutJob& job, const Base& base, double part) {
+LayoutJob with_effort(const LayoutJob& job, double part) {
     LayoutJob own = job;
-    own.rules.effort = std::make_shared<Effort>(Effort{part * work_per_face * base.mesh.surface.n_faces(), 0});
+    own.rules.effort = std::make_shared<Effort>(Effort{job.params.layout_effort * part * std::max(least_work, work_per_face * job.s.n_faces()), 0});
     return own;
 }
 
@@ -113,7 +114,7 @@ struct Found {
 };
 
 Found free_layout(const LayoutJob& whole_job, const Base& base) {
-    const LayoutJob job = with_effort(whole_job, base, 1);
+    const LayoutJob job = with_effort(whole_job, 1);
     Layout layout = layout_on(job, uncut(job, base.mesh), job.params.max_panels, Stage::search);
     for (std::size_t i = 0; i < job.strokes.size(); ++i)
         if (!layout.add_curve(stroke_curve(layout, job.strokes[i], static_cast<int>(i)), true))
@@ -127,7 +128,7 @@ Found free_layout(const LayoutJob& whole_job, const Base& base) {
 /// The layout of the part on one side of all planes, and its mirror images; nothing when they do not fit.
 /// @param what  is laid out anew: a first look does without what only looks bad
 std::optional<Found> mirrored_layout(const LayoutJob& whole_job, const Base& base, const std::vector<MirrorPlane>& planes, Rework what) {
-    const LayoutJob job = with_effort(whole_job, base, 1. / static_cast<double>(1 << planes.size()));
+    const LayoutJob job = with_effort(whole_job, 1. / static_cast<double>(1 << planes.size()));
     MeshOnInput settled = base.mesh;
     for (const MirrorPlane& plane : planes) settle_on_plane(settled, base.topology, plane, job.s, job.topology);
     const int max_panels = std::max(1, job.params.max_panels >> planes.size());
@@ -186,8 +187,8 @@ Layout judged(const LayoutJob& job, const CutMesh& cut) {
 
 /// Darts where they help, on the mesh that is handed over; judged as before.
 Layout with_darts(const LayoutJob& job, Layout judged_layout) {
-    Layout layout = layout_on(job, judged_layout.cut(), job.params.max_panels, Stage::polish);
-    if (judged_layout.keeps_bounds() || !layout.add_darts()) return judged_layout;
+    Layout layout = judged_layout;   // by the same rules: what is known of its panels serves
+    if (layout.keeps_bounds() || !layout.add_darts()) return layout;
     Layout darted = judged(job, layout.cut());
     return darted.cost() < judged_layout.cost() ? std::move(darted) : std::move(judged_layout);
 }

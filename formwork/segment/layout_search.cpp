@@ -113,7 +113,7 @@ Layout::Borders Layout::borders() const {
             const int i = s.faces[f][k], j = s.faces[f][(k + 1) % 3];
             if (i > j || !cut_.is_seam_at(f, k)) continue;
             const int p = panel_[f], q = panel_[cut_.across(f, k)];
-            if (panels_[p].frozen || panels_[q].frozen) continue;
+            if (panels_[p].frozen || panels_[q].frozen || (panels_[p].parked && panels_[q].parked)) continue;
             Border& border = all[std::minmax(p, q)];
             border.is_given = border.is_given || cut_.is_given_at(f, k);
             border.length += (s.x[i] - s.x[j]).norm();

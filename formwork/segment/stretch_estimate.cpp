@@ -23,10 +23,19 @@ std::pair<double, double> corner_angle_at(const Surface& s, const arcsim::Triang
     return {std::atan2(sine, cosine), cosine / sine};
 }
 
-/// Cell of every inner node: nearest of seeds that are `radius` apart, after one round of recentring.
-std::vector<int> make_cells(const PanelPatch& p, double radius, std::vector<int>& seeds) {
-    const EdgeLengths g(p);
+/// Cell of every inner node: nearest of about `max_cells` seeds evenly apart, after one round of recentring.
+std::vector<int> make_cells(const PanelPatch& p, int max_cells, std::vector<int>& seeds) {
     const int n = p.surface.n_nodes();
+    seeds.clear();
+    for (int v = 0; v < n; ++v)
+        if (!p.topology.is_boundary_node(v)) seeds.push_back(v);
+    if (static_cast<int>(seeds.size()) <= max_cells) {   // small panels: every node is a cell
+        std::vector<int> cell(n, -1);
+        for (std::size_t i = 0; i < seeds.size(); ++i) cell[seeds[i]] = static_cast<int>(i);
+        return cell;
+    }
+    const EdgeLengths g(p);
+    const double radius = 0.95 * std::sqrt(p.area() / max_cells);   // spacing of a hexagonal grid is 1.07 of this
     using Item = std::tuple<double, int, int>;
     const auto grow = [&](const std::vector<int>& from) {
         std::vector<double> distance(n, std::numeric_limits<double>::infinity());
@@ -86,32 +95,52 @@ struct StretchModel::Impl {
     std::vector<double> area;      // per cell, m²
     VectorXd curvature;            // per cell: sum of angle defects
     std::vector<std::vector<int>> neighbours;
-    SparseMatrix laplacian;
-    Eigen::SimplicialLLT<SparseMatrix> pattern;
+    SparseMatrix laplacian;        // upper triangle
+    std::vector<int> place;        // per cell: in the elimination order, which the two below follow
+    std::vector<int> diagonal;     // per place: of the matrix's values
+    Eigen::SimplicialLLT<SparseMatrix, Eigen::Upper, Eigen::NaturalOrdering<int>> factor;
     std::unordered_map<std::vector<bool>, StretchEstimate> known;   // by the cells on the curve: many curves run through the same ones
 
-    StretchEstimate measure(const std::vector<bool>& on_curve) const;
-    VectorXd solve(const std::vector<bool>& on_curve) const;
+    void order(int n, const std::vector<Eigen::Triplet<double>>& entries);
+    StretchEstimate measure(const std::vector<bool>& on_curve);
+    VectorXd solve(const std::vector<bool>& on_curve);
 };
 
-VectorXd StretchModel::Impl::solve(const std::vector<bool>& on_curve) const {
+/// The matrix in an order of little fill: found once, it serves every curve.
+void StretchModel::Impl::order(int n, const std::vector<Eigen::Triplet<double>>& entries) {
+    SparseMatrix whole(n, n);
+    whole.setFromTriplets(entries.begin(), entries.end());
+    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse;
+    Eigen::AMDOrdering<int>()(whole, inverse);
+    const Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order = inverse.inverse();
+    place.assign(order.indices().data(), order.indices().data() + n);
+    laplacian.resize(n, n);
+    laplacian.selfadjointView<Eigen::Upper>() = whole.selfadjointView<Eigen::Upper>().twistedBy(order);
+    laplacian.makeCompressed();
+    for (int c = 0; c < n; ++c)
+        for (int k = laplacian.outerIndexPtr()[c]; k < laplacian.outerIndexPtr()[c + 1]; ++k)
+            if (laplacian.innerIndexPtr()[k] == c) diagonal.push_back(k);
+    factor.analyzePattern(laplacian);
+}
+
+VectorXd StretchModel::Impl::solve(const std::vector<bool>& on_curve) {
     SparseMatrix a = laplacian;
-    VectorXd b = curvature;
-    for (std::size_t c = 0; c < on_curve.size(); ++c)
-        if (on_curve[c]) {   // phi = 0, kept in the pattern
-            a.coeffRef(static_cast<int>(c), static_cast<int>(c)) *= 1e8;
-            b[static_cast<int>(c)] = 0;
-        }
-    auto& solver = const_cast<Eigen::SimplicialLLT<SparseMatrix>&>(pattern);
-    solver.factorize(a);
-    return solver.solve(b);
+    VectorXd b(curvature.size());
+    for (std::size_t c = 0; c < on_curve.size(); ++c) {
+        b[place[c]] = on_curve[c] ? 0 : curvature[static_cast<int>(c)];
+        if (on_curve[c]) a.valuePtr()[diagonal[place[c]]] *= 1e8;   // phi = 0, kept in the pattern
+    }
+    factor.factorize(a);
+    const VectorXd x = factor.solve(b);
+    VectorXd phi(b.size());
+    for (std::size_t c = 0; c < place.size(); ++c) phi[static_cast<int>(c)] = x[place[c]];
+    return phi;
 }
 
 StretchModel::StretchModel(const PanelPatch& p, int max_cells) : impl_(std::make_unique<Impl>()) {
     Impl& m = *impl_;
     const Surface& s = p.surface;
-    const double total = p.area();
-    m.cell = make_cells(p, 0.95 * std::sqrt(total / max_cells), m.seed);   // spacing of a hexagonal grid is 1.07 of this
+    m.cell = make_cells(p, max_cells, m.seed);
     const int n = static_cast<int>(m.seed.size());
     m.area.assign(n, 0);
     m.curvature = VectorXd::Zero(n);
@@ -158,9 +187,7 @@ StretchModel::StretchModel(const PanelPatch& p, int max_cells) : impl_(std::make
         list.erase(std::unique(list.begin(), list.end()), list.end());
     }
     for (int c = 0; c < n; ++c) entries.emplace_back(c, c, 1e-9);   // closed surfaces: no border holds phi
-    m.laplacian.resize(n, n);
-    m.laplacian.setFromTriplets(entries.begin(), entries.end());
-    if (n > 0) m.pattern.analyzePattern(m.laplacian);
+    if (n > 0) m.order(n, entries);
 }
 
 StretchModel::~StretchModel() = default;
@@ -181,7 +208,7 @@ StretchEstimate StretchModel::with_cut(const Curve& curve) const {
     return known->second;
 }
 
-StretchEstimate StretchModel::Impl::measure(const std::vector<bool>& on_curve) const {
+StretchEstimate StretchModel::Impl::measure(const std::vector<bool>& on_curve) {
     const int n = static_cast<int>(seed.size());
     StretchEstimate e;
     const VectorXd phi = solve(on_curve);
@@ -218,13 +245,17 @@ StretchEstimate StretchModel::Impl::measure(const std::vector<bool>& on_curve) c
             e.energy += area[c] * d * d;
             off.emplace_back(std::abs(d), area[c]);
         }
-        std::sort(off.begin(), off.end(), std::greater<>());
-        double above = 0;
-        for (const auto& [d, a] : off)
-            if ((above += a) > 0.05 * total) {
-                e.p95 = std::max(e.p95, d);
-                break;
-            }
+        double above = 0;   // the few largest are enough to pass 5 % of the area
+        for (std::size_t done = 0, next = 0; done < off.size() && above <= 0.05 * total; done = next) {
+            next = std::min(off.size(), done + std::max<std::size_t>(8, off.size() / 10));
+            std::partial_sort(off.begin() + static_cast<std::ptrdiff_t>(done), off.begin() + static_cast<std::ptrdiff_t>(next), off.end(),
+                              std::greater<>());
+            for (std::size_t i = done; i < next; ++i)
+                if ((above += off[i].second) > 0.05 * total) {
+                    e.p95 = std::max(e.p95, off[i].first);
+                    break;
+                }
+        }
         e.area += total;
         areas.push_back(total);
     }
@@ -234,7 +265,7 @@ StretchEstimate StretchModel::Impl::measure(const std::vector<bool>& on_curve) c
 }
 
 std::vector<int> StretchModel::nodes_by_stretch() const {
-    const Impl& m = *impl_;
+    Impl& m = *impl_;
     const int n = n_cells();
     if (n == 0) return {};
     const VectorXd phi = m.solve(std::vector<bool>(n, false));

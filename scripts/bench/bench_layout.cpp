@@ -1,9 +1,9 @@
 /// Panels of one mesh: counts, stretch of the converged flat patterns, seam length, alignment, time.
 ///
 ///     bench_layout MESH.obj FIELD.txt [max_distortion [max_panels [min_width [DUMP.txt]]]] [--symmetry detect|off]
-///                  [--subdivisions N]
+///                  [--subdivisions N] [--effort E]
 ///
-/// Each subdivision makes four faces of one: for growth with size. Prints one CSV line (with --header as the only argument: the header). DUMP.txt gets the cut mesh, panels
+/// Each subdivision makes four faces of one: for growth with size; E is segment.layout_effort. Prints one CSV line (with --header as the only argument: the header). DUMP.txt gets the cut mesh, panels
 /// and seams for plotting.
 #include <sys/resource.h>
 
@@ -66,9 +66,11 @@ double seam_drift_deg(const Segmentation& s) {
 int main(int argc, char** argv) try {
     Symmetry symmetry = Symmetry::detect;
     int subdivisions = 0;
+    double effort = 1;
     for (; argc > 2 && std::string(argv[argc - 2]).starts_with("--"); argc -= 2) {
         if (std::string(argv[argc - 2]) == "--symmetry") symmetry = std::string(argv[argc - 1]) == "off" ? Symmetry::off : Symmetry::detect;
         if (std::string(argv[argc - 2]) == "--subdivisions") subdivisions = std::stoi(argv[argc - 1]);
+        if (std::string(argv[argc - 2]) == "--effort") effort = std::stod(argv[argc - 1]);
     }
     if (argc < 3) {
         std::cout << "mesh,faces,max_distortion,panels,disks,within_5,p95_worst,p95_area,seam_m,drift_deg,min_angle_deg,"
@@ -79,6 +81,7 @@ int main(int argc, char** argv) try {
     Surface s = mesh.surface();
     SegmentParams p;
     p.symmetry = symmetry;
+    p.layout_effort = effort;
     if (argc > 3) p.max_distortion = std::stod(argv[3]);
     if (argc > 4) p.max_panels = std::stoi(argv[4]);
     if (argc > 5) p.min_width = std::stod(argv[5]);
