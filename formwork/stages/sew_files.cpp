@@ -1,5 +1,7 @@
 #include "formwork/stages/sew_files.hpp"
 
+#include <cmath>
+
 #include "arcsim/base/files.hpp"
 #include "formwork/report/chart.hpp"
 #include "formwork/stages/csv.hpp"
@@ -42,6 +44,31 @@ JsonValue variant_summary(const GrainVariant& g) {
     return v;
 }
 
+/// Which panels the shear is in: means over each panel's area, and its share of all shear.
+std::string panel_table(const SewResult& r, const Segmentation& s) {
+    struct Sum {
+        double area = 0, shear = 0, fabric = 0, taut = 0;
+    };
+    std::vector<Sum> panels(s.n_panels);
+    double shear_of_all = 0;
+    for (int f = 0; f < s.mesh.n_faces(); ++f) {
+        const double area = arcsim::face_area(s.mesh, f), shear = area * std::abs(r.equilibrium.strain[f].eps_uv);
+        Sum& p = panels[s.panel[f]];
+        p.area += area;
+        p.shear += shear;
+        p.fabric += area * std::abs(r.weave.face[f].fabric_shear);
+        if (r.equilibrium.strain[f].state == FaceState::taut) p.taut += area;
+        shear_of_all += shear;
+    }
+    CsvText text("panel,area_m2,mean_abs_shear,fabric_mean_abs_shear,taut_share,share_of_shear");
+    for (int i = 0; i < s.n_panels; ++i) {
+        const Sum& p = panels[i];
+        text.add(i).add(p.area).add(p.shear / p.area).add(p.fabric / p.area).add(p.taut / p.area);
+        text.add(shear_of_all > 0 ? p.shear / shear_of_all : 0).end_row();
+    }
+    return text.text();
+}
+
 /// Share of the cloth whose weave is off square by more than an angle: aligned and the other grains.
 Image weave_angle_chart(const SewResult& r) {
     std::vector<ChartSeries> series;
@@ -73,6 +100,8 @@ void write_sew_tables(const std::filesystem::path& folder, const SewResult& r, c
         weave.add(w.tension_warp).add(w.tension_weft).add(w.tension_max).end_row();
     }
     arcsim::write_file_atomically(folder / "weave.csv", weave.text());
+
+    arcsim::write_file_atomically(folder / "panels.csv", panel_table(r, s));
 
     CsvText seams("seam,panel_a,panel_b,length_m,thread_force_max_N,thread_force_min_N,thread_force_mean_N,line_load_max_N_per_m,gap_max_m");
     for (const SeamLoad& l : r.seams) {

@@ -11,7 +11,7 @@ const std::vector<Stage>& stages() {
         {"panels", {"segment/segments.obj", "segment/labels.csv", "segment/seams.csv", "segment/directions.csv"},
          {"panels/sewn_rest.obj", "panels/panels.csv", "panels/panels.svg"}, run_panels},
         {"sew", {"panels/sewn_rest.obj", "segment/segments.obj", "segment/source.csv", "inflate/inflated.obj"},
-         {"sew/sewn.obj", "sew/strain.csv", "sew/weave.csv", "sew/seams.csv", "sew/seam_edges.csv", "sew/deviation.csv"}, run_sew},
+         {"sew/sewn.obj", "sew/strain.csv", "sew/weave.csv", "sew/panels.csv", "sew/seams.csv", "sew/seam_edges.csv", "sew/deviation.csv"}, run_sew},
         {"report", {}, {"report.html"}, run_report}};
     return table;
 }
