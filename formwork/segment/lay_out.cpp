@@ -45,7 +45,8 @@ Base whole_mesh(const LayoutJob& job) {
 
 /// Strokes are followed edge by edge: they need the mesh as it is.
 Base base_mesh(const LayoutJob& job) {
-    const int target = std::max(enough_faces, faces_per_panel * job.params.max_panels);
+    const double per_panel = faces_per_panel * std::clamp(job.params.layout_effort, 1., 4.);   // with more work to do, finer panels pay
+    const int target = std::max(enough_faces, static_cast<int>(per_panel * job.params.max_panels));
     if (2 * job.s.n_faces() < 3 * target || !job.strokes.empty()) return whole_mesh(job);
     SearchMesh coarse = search_mesh(job.s, job.topology, target);
     Topology topology = arcsim::build_topology(coarse.surface, "segment");

@@ -249,6 +249,7 @@ void Layout::search() {
         for (Panel& p : panels_) p.stuck = false;
         prune();
     }
+    refine();   // panels that joining has left to spare
     keeps_candidates_ = false;
 }
 
