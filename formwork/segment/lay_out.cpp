@@ -35,6 +35,7 @@ struct Base {
     MeshOnInput mesh;
     Topology topology;
     bool is_coarse = false;
+    double work = 1;   // share of all work that one layout on it may take
 };
 
 Base whole_mesh(const LayoutJob& job) {
@@ -115,7 +116,7 @@ struct Found {
 };
 
 Found free_layout(const LayoutJob& whole_job, const Base& base) {
-    const LayoutJob job = with_effort(whole_job, 1);
+    const LayoutJob job = with_effort(whole_job, base.work);
     Layout layout = layout_on(job, uncut(job, base.mesh), job.params.max_panels, Stage::search);
     for (std::size_t i = 0; i < job.strokes.size(); ++i)
         if (!layout.add_curve(stroke_curve(layout, job.strokes[i], static_cast<int>(i)), true))
@@ -129,7 +130,7 @@ Found free_layout(const LayoutJob& whole_job, const Base& base) {
 /// The layout of the part on one side of all planes, and its mirror images; nothing when they do not fit.
 /// @param what  is laid out anew: a first look does without what only looks bad
 std::optional<Found> mirrored_layout(const LayoutJob& whole_job, const Base& base, const std::vector<MirrorPlane>& planes, Rework what) {
-    const LayoutJob job = with_effort(whole_job, 1. / static_cast<double>(1 << planes.size()));
+    const LayoutJob job = with_effort(whole_job, base.work / static_cast<double>(1 << planes.size()));
     MeshOnInput settled = base.mesh;
     for (const MirrorPlane& plane : planes) settle_on_plane(settled, base.topology, plane, job.s, job.topology);
     const int max_panels = std::max(1, job.params.max_panels >> planes.size());
@@ -262,8 +263,11 @@ Segmentation lay_out(const LayoutJob& job) {
         const std::vector<int> panel = label_panels(found.layout.cut(), n);
         if (auto cut = transfer_seams(found.layout.cut(), panel, n, job.s, job.topology))
             found.layout = judged(job, *cut);
-        else
-            found = best_layout(job, whole_mesh(job));   // panels too narrow for the coarse mesh
+        else {   // panels too narrow for the coarse mesh
+            Base whole = whole_mesh(job);
+            whole.work = 0.5;
+            found = best_layout(job, whole);
+        }
     }
     const Layout layout = with_darts(job, std::move(found.layout));
     return hand_over(job, layout.cut(), std::move(found.candidates));
