@@ -18,7 +18,7 @@ constexpr double least_gain = 0.02;    // in panels: for less, a layout is not c
 constexpr double bad_taste = 0.25;     // in panels: what a panel's outline costs
 constexpr int most_neighbours = 3;     // of a panel, longest border first, that are joined one or two at a time
 constexpr double far_apart = 0.12;     // of the group's size: distance between the first cuts' middles
-constexpr double largest_group = 0.6;  // of the surface
+constexpr double largest_group = 1.0;  // of the surface
 
 }  // namespace
 

@@ -86,7 +86,7 @@ PanelQuality at_best(PanelQuality q) {
 }
 
 double panel_cost(const PanelQuality& q, const SplitRules& rules) {
-    constexpr double violation = 10, most_excess = 10, tip = 1.2, least_tip = 0.5 /* rad */, inner_corner = 0.3, hook = 10;
+    constexpr double violation = 10, most_excess = 10, tip = 1.2, least_tip = 0.5 /* rad */, inner_corner = 0.6, hook = 10;
     if (!q.is_disk) return 10 * violation;
     double cost = 1;
     if (q.p95 > rules.max_distortion) cost += violation + violation * std::min(most_excess, q.p95 / rules.max_distortion - 1);
