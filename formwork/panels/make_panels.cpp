@@ -47,10 +47,10 @@ void check_panel(const FlatPanel& panel, const PanelParams& params) {
                                   "(/formwork/segment/max_distortion)";
     if (panel.flips > 0) throw arcsim::NumericalError(who + ": " + std::to_string(panel.flips) + " faces turned over while flattening.");
     if (panel.p95_stretch_distortion > params.max_distortion)
-        throw arcsim::InputError(who + " cannot be laid flat: 5 % of its area would stretch or shrink by more than " +
+        throw arcsim::NumericalError(who + " cannot be laid flat: 5 % of its area would stretch or shrink by more than " +
                                  percent(panel.p95_stretch_distortion) + ", allowed are " + percent(params.max_distortion) + ". " +
                                  finer + ", or raise /formwork/panels/max_distortion.");
-    if (panel.overlaps) throw arcsim::InputError(who + " overlaps itself when laid flat and cannot be cut from one sheet. " + finer + ".");
+    if (panel.overlaps) throw arcsim::NumericalError(who + " overlaps itself when laid flat and cannot be cut from one sheet. " + finer + ".");
 }
 
 void check_seam(const PanelSet& set, std::size_t i) {

@@ -48,9 +48,9 @@ struct PanelSet {
 
 /// Lays every panel flat, turns it to its grain, gives both sides of every seam the same length between
 /// notches, and measures what that costs.
-/// @throws InputError  a panel that is no disk, that stretches beyond params.max_distortion, that overlaps
-///                     itself when flat; a seam whose sides differ beyond params.max_seam_mismatch; each
-///                     with the panel's or seam's printed number and what to change
+/// @throws InputError      a panel that is no disk; a seam whose sides differ beyond params.max_seam_mismatch
+/// @throws NumericalError  a panel that stretches beyond params.max_distortion, or overlaps itself when flat; each of
+///                         these with the panel's or seam's printed number and what to change
 PanelSet make_panels(const Segmentation& segmentation, const PanelParams& params);
 
 /// Measures panels and seams again from their flat coordinates: for a set that was read back from files.

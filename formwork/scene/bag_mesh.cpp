@@ -23,11 +23,11 @@ double metres_per(LengthUnit unit) {
 }
 
 std::string welded_note(int vertices) {
-    return std::to_string(vertices) + " vertices at the places of others are welded (\"weld\": false keeps them apart); vertex numbers of the output differ.";
+    return std::to_string(vertices) + (vertices == 1 ? " vertex at the place of another is" : " vertices at the places of others are") + " welded (\"weld\": false keeps them apart); vertex numbers of the output differ.";
 }
 
 std::string stray_note(int vertices) {
-    return std::to_string(vertices) + " vertices belong to no face and are left out; vertex numbers of the output differ.";
+    return std::to_string(vertices) + (vertices == 1 ? " vertex belongs to no face and is" : " vertices belong to no face and are") + " left out; vertex numbers of the output differ.";
 }
 
 namespace {

@@ -14,18 +14,6 @@ namespace {
 constexpr double longest_detour = 1.3;   // of a border along the field, over the border that it replaces
 constexpr double least_agreement = 0.8;  // share of the area that both borders give to the same part
 
-/// V - E + F of a connected set of faces is 1.
-bool is_disk(const Surface& s, const std::vector<int>& faces) {
-    std::set<int> nodes;
-    std::set<std::pair<int, int>> edges;
-    for (int f : faces)
-        for (int k = 0; k < 3; ++k) {
-            nodes.insert(s.faces[f][k]);
-            edges.insert(std::minmax(s.faces[f][k], s.faces[f][(k + 1) % 3]));
-        }
-    return static_cast<int>(nodes.size()) - static_cast<int>(edges.size()) + static_cast<int>(faces.size()) == 1;
-}
-
 double border_length(const PanelPatch& patch, const std::vector<int>& part) {
     double length = 0;
     for (const arcsim::Edge& e : patch.topology.edges)
@@ -106,7 +94,7 @@ int split_by_covariance(CutMesh& cut, double max_energy, int max_panels, const S
             std::vector<std::vector<int>> members(n);
             for (std::size_t i = 0; i < part.size(); ++i) members[part[i]].push_back(faces[worst][i]);
             done = n > 1 && n_panels + n - 1 <= max_panels &&
-                   std::all_of(members.begin(), members.end(), [&](const auto& m) { return is_disk(cut.surface(), m); });
+                   std::all_of(members.begin(), members.end(), [&](const auto& m) { return extract_patch(cut, m).is_disk(); });
             if (!done) {
                 whole.insert(faces[worst].front());
                 continue;

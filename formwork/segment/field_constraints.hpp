@@ -23,7 +23,7 @@ template <class Archive>
 void visit(Archive& a, ConstraintParams& p) {
     a.optional("align_rims", p.align_rims, "Whether the field must run along or across the rims.");
     a.optional("crease_angle_deg", p.crease_angle_deg, "degrees", arcsim::between(0, 180),
-               "Edges that bend by more than this are followed by the field; 0: none.");
+               "Edges that bend by more than this are followed by the field, and tried as seams where they part the surface; 0: none.");
     a.optional("strokes", p.strokes, "OBJ file of polylines (v and l lines) that the field must follow and that become seams.");
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "arcsim/base/error.hpp"
+#include "formwork/segment/crease_seams.hpp"
 #include "formwork/segment/mesh_repair.hpp"
 #include "formwork/segment/mirror_layout.hpp"
 #include "formwork/segment/seam_chains.hpp"
@@ -44,11 +45,19 @@ Base whole_mesh(const LayoutJob& job) {
     return {{job.s, CutMesh(job.s).source(), std::move(same)}, job.topology, false};
 }
 
-/// Strokes are followed edge by edge: they need the mesh as it is.
+double crease_angle(const LayoutJob& job) { return job.params.constraints.crease_angle_deg * std::numbers::pi / 180; }
+
+/// Whether some creases of the surface part it, so that they are to be tried as seams.
+bool follows_creases(const LayoutJob& job) {
+    CutMesh cut(job.s);
+    return crease_angle(job) > 0 && mark_crease_seams(cut, crease_angle(job), job.params.min_width);
+}
+
+/// Strokes and creases are followed edge by edge: they need the mesh as it is.
 Base base_mesh(const LayoutJob& job) {
     const double per_panel = faces_per_panel * std::clamp(job.params.layout_effort, 1., 4.);   // with more work to do, finer panels pay
     const int target = std::max(enough_faces, static_cast<int>(per_panel * job.params.max_panels));
-    if (2 * job.s.n_faces() < 3 * target || !job.strokes.empty()) return whole_mesh(job);
+    if (2 * job.s.n_faces() < 3 * target || !job.strokes.empty() || follows_creases(job)) return whole_mesh(job);
     SearchMesh coarse = search_mesh(job.s, job.topology, target);
     Topology topology = arcsim::build_topology(coarse.surface, "segment");
     return {{std::move(coarse.surface), std::move(coarse.source), std::move(coarse.source_face)}, std::move(topology), true};
@@ -117,7 +126,9 @@ struct Found {
 
 Found free_layout(const LayoutJob& whole_job, const Base& base) {
     const LayoutJob job = with_effort(whole_job, base.work);
-    Layout layout = layout_on(job, uncut(job, base.mesh), job.params.max_panels, Stage::search);
+    CutMesh cut = uncut(job, base.mesh);
+    if (follows_creases(job)) mark_crease_seams(cut, crease_angle(job), job.params.min_width);
+    Layout layout = layout_on(job, std::move(cut), job.params.max_panels, Stage::search);
     for (std::size_t i = 0; i < job.strokes.size(); ++i)
         if (!layout.add_curve(stroke_curve(layout, job.strokes[i], static_cast<int>(i)), true))
             throw arcsim::InputError("segment: stroke " + std::to_string(i + 1) + " crosses itself. Draw it as several strokes.");
@@ -167,7 +178,7 @@ std::optional<Found> mirrored_layout(const LayoutJob& whole_job, const Base& bas
 /// Two planes at right angles, when there are such, and the best plane alone.
 std::vector<std::vector<MirrorPlane>> plane_sets(const LayoutJob& job) {
     std::vector<std::vector<MirrorPlane>> sets;
-    if (job.params.symmetry != Symmetry::detect || !job.strokes.empty() || job.params.max_panels < 2) return sets;
+    if (job.params.symmetry != Symmetry::detect || !job.strokes.empty() || follows_creases(job) || job.params.max_panels < 2) return sets;
     std::vector<MirrorPlane> planes = find_mirror_planes(job.s, job.topology);
     const double close = 0.25 * arcsim::mean_edge_length(job.s);
     std::erase_if(planes, [&](const MirrorPlane& p) { return p.deviation >= close; });

@@ -193,8 +193,11 @@ public:
 private:
     void report_candidates(std::vector<CandidateCurve>& all) const {
         for (const Candidate& c : found_) {
+            Curve curve = crossing_curve(patch_.surface, patch_.topology, graph_, c.path);   // as it would be sewn
+            if (curve.empty()) curve = sample_points(graph_, c.path);
+            else smooth_curve(patch_.surface, curve, smoothing_rounds);
             all.push_back({c.kind, c.path.cost, {}});
-            for (const CurvePoint& p : sample_points(graph_, c.path)) all.back().points.push_back(position(patch_.surface, p));
+            for (const CurvePoint& p : curve) all.back().points.push_back(position(patch_.surface, p));
         }
     }
 

@@ -31,7 +31,7 @@ SegmentInput read_field_input(const FormworkScene& scene) {
     BagMesh bag = load_bag_mesh(scene);
     if (bag.stray_vertices > 0)
         throw InputError(scene.mesh_file().path.string() + ": " + std::to_string(bag.stray_vertices) +
-                         " vertices belong to no face. Remove unreferenced vertices from a mesh to which /formwork/segment/field belongs.");
+                         (bag.stray_vertices == 1 ? " vertex belongs" : " vertices belong") + " to no face. Remove unreferenced vertices from a mesh to which /formwork/segment/field belongs.");
     return {std::move(bag.surface), read_field_file(keys.field->path.string(), bag.topology, keys.directions)};
 }
 

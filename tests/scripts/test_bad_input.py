@@ -107,7 +107,7 @@ for name, mesh, lines, words in [
         ("field of wrong length", obj(), LINES[:-1], ["field.txt", "9", "10"]),
         ("field with NaN", obj(), [*LINES[:3], "nan 1.2 1.0\n", *LINES[4:]], ["field.txt:4"]),
         ("field on two components", obj(GOOD_V + SHIFTED, GOOD_F + [tuple(i + 8 for i in f) for f in GOOD_F]), LINES * 2, ["2 components"]),
-        ("field on a vertex without faces", obj(GOOD_V + [(0.05, 0.05, 0.05)]), LINES, ["bag.obj", "1 vertices belong to no face", "Remove"]),
+        ("field on a vertex without faces", obj(GOOD_V + [(0.05, 0.05, 0.05)]), LINES, ["bag.obj", "1 vertex belongs to no face", "Remove"]),
         ("field on a nonmanifold edge", obj(GOOD_V + [(0.05, 0.05, 0.05)], GOOD_F + [(0, 3, 8)]), [*LINES, LINES[0]], ["bag.obj", "edge", "three"])]:
     case(name, json.dumps({"cloths": [{"mesh": "bag.obj"}], "formwork": ALONE}), mesh, words, command=("segment",), field="".join(lines))
 case("closed mesh", scene(), obj(faces=GOOD_F + [(4, 5, 7), (4, 7, 6)]), ["/formwork/fixed/0/boundary", "closed"])
