@@ -12,6 +12,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 constexpr double thin = 20 * degree;            // faces with a smaller angle are mended where possible
 constexpr double folded = 0.90;                 // least cosine between faces that a flip may join
+constexpr double crease = 45 * degree;           // of the input: nodes on such an edge stay on it, or its faces lose area
 constexpr int rounds = 6;
 
 class Repair {
@@ -33,6 +34,7 @@ public:
                 }
             }
         for (int v : fixed) fixed_[v] = 1;
+        find_creases();
         for (std::size_t v = 0; v < borders_.size(); ++v)
             if (!borders_[v].empty() && borders_[v].size() != 2) fixed_[v] = 1;
     }
@@ -75,9 +77,35 @@ private:
         });
     }
 
+    /// Nodes on creases of the input: those at its nodes are held, the others keep to their edge.
+    void find_creases() {
+        std::map<std::pair<int, int>, char> bent;
+        std::vector<char> at_crease(input_.x.size(), 0);
+        for (const arcsim::Edge& e : topology_.edges) {
+            if (e.is_boundary() || arcsim::face_normal(input_, e.face[0]).dot(arcsim::face_normal(input_, e.face[1])) > std::cos(crease)) continue;
+            bent[std::minmax(e.node[0], e.node[1])] = 1;
+            for (int v : e.node) at_crease[v] = 1;
+        }
+        rail_.assign(s_.x.size(), {-1, -1});
+        for (int v = 0; v < s_.n_nodes() && !bent.empty(); ++v) {
+            const arcsim::Triangle& t = input_.faces[source_[v].face];
+            const auto& b = source_[v].barycentric;
+            for (int k = 0; k < 3; ++k) {
+                const std::pair<int, int> edge = std::minmax(t[(k + 1) % 3], t[(k + 2) % 3]);
+                if (b[k] < 1e-9 && bent.count(edge)) rail_[v] = edge;
+                if (b[k] > 1 - 1e-9 && at_crease[t[k]]) fixed_[v] = 1;
+            }
+        }
+    }
+    bool is_on_crease(int v) const { return rail_[v].first >= 0; }
+
     /// Moves v to the surface point nearest to x when no angle around it falls below `floor` (or below what it was).
-    bool move(int v, const Vector3d& x, double floor) {
+    bool move(int v, Vector3d x, double floor) {
         const Vector3d old = s_.x[v];
+        if (is_on_crease(v)) {
+            const Vector3d a = input_.x[rail_[v].first], along = input_.x[rail_[v].second] - a;
+            x = a + std::clamp(along.dot(x - a) / along.squaredNorm(), 0.02, 0.98) * along;
+        }
         const SurfacePoint p = nearest_point(input_, topology_, source_[v].face, x);
         const double before = least_around(v);
         s_.x[v] = point_at(input_, p);
@@ -161,7 +189,7 @@ private:
 
     /// Draws a into b.
     bool collapse(int a, int b) {
-        if (fixed_[a] || is_input_node(a)) return false;
+        if (fixed_[a] || is_input_node(a) || is_on_crease(a)) return false;
         const bool along_seam = is_seam(a, b);
         if (!borders_[a].empty() && !along_seam) return false;
         const auto both = faces_at(a, b);
@@ -246,6 +274,7 @@ private:
     std::vector<std::set<int>> borders_;        // node -> other ends of its seam and rim edges
     std::map<std::pair<int, int>, bool> seams_; // edge -> was it asked for
     std::vector<char> fixed_;
+    std::vector<std::pair<int, int>> rail_;     // per node: the input's crease edge that it lies on; -1: none
 };
 
 }  // namespace
