@@ -272,9 +272,9 @@ Segmentation lay_out(const LayoutJob& job) {
     if (base.is_coarse) {
         int n = 0;
         const std::vector<int> panel = label_panels(found.layout.cut(), n);
-        if (auto cut = transfer_seams(found.layout.cut(), panel, n, job.s, job.topology))
+        if (auto cut = transfer_seams(found.layout.cut(), panel, n, job.s, job.topology)) {
             found.layout = judged(job, *cut);
-        else {   // panels too narrow for the coarse mesh
+        } else {   // panels too narrow for the coarse mesh
             Base whole = whole_mesh(job);
             whole.work = 0.5;
             found = best_layout(job, whole);
