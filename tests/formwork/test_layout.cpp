@@ -43,7 +43,14 @@ void check_promises(const Surface& s, const Segmentation& r) {
     int n_walked = 0;
     label_panels(cut, n_walked);
     CHECK(n_walked == r.n_panels);
-    for (const auto& faces : panel_faces(r.panel, r.n_panels)) CHECK(extract_patch(cut, faces).is_disk());
+    for (const auto& faces : panel_faces(r.panel, r.n_panels)) {
+        const PanelPatch patch = extract_patch(cut, faces);
+        CHECK(patch.is_disk());
+        const Topology built = arcsim::build_topology(patch.surface);   // taken from the cut mesh, as found from the faces alone
+        CHECK(patch.topology.face_edges == built.face_edges);
+        CHECK(patch.topology.node_faces == built.node_faces);
+        CHECK(patch.topology.boundary_loops == built.boundary_loops);
+    }
 
     // Each border edge lies in exactly one seam, with the right panel on each side.
     std::set<std::pair<int, int>> seen;
