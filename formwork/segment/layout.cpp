@@ -5,7 +5,20 @@
 #include <limits>
 #include <map>
 
+#include "arcsim/base/text.hpp"
+
 namespace formwork {
+namespace {
+
+/// Both in per cent, with as many digits as tell them apart.
+std::string excess_message(double stretch, double bound) {
+    int digits = 3;
+    const auto percent = [&](double v) { return arcsim::format_short(100 * v, digits) + " %"; };
+    while (digits < 16 && percent(stretch) == percent(bound)) ++digits;
+    return "stretch of " + percent(stretch) + " (95 % of the area) exceeds max_distortion " + percent(bound);
+}
+
+}  // namespace
 
 Layout::Layout(const Surface& input, const std::vector<double>& theta, const std::vector<DirectionData>& data,
                const SplitRules& rules, const LayoutLimits& limits)
@@ -146,7 +159,6 @@ std::vector<std::string> Layout::violations() {
     std::vector<std::string> lines;
     int n = 0;
     const std::vector<int> number = label_panels(cut_, n);
-    const auto percent = [](double v) { return std::to_string(std::lround(1000 * v) / 10.) .substr(0, 4) + " %"; };
     std::vector<char> told(panels_.size(), 0);
     for (std::size_t f = 0; f < panel_.size(); ++f) {
         const int p = panel_[f];
@@ -156,8 +168,7 @@ std::vector<std::string> Layout::violations() {
         const std::string name = "panel " + std::to_string(number[f] + 1) + ": ";
         if (!q.is_disk) lines.push_back(name + "is no disk");
         if (q.is_disk && q.p95 > rules_.max_distortion)
-            lines.push_back(name + "stretch of " + percent(q.p95) + " (95 % of the area) exceeds max_distortion " +
-                            percent(rules_.max_distortion));
+            lines.push_back(name + excess_message(q.p95, rules_.max_distortion));
         if (q.overlaps) lines.push_back(name + "overlaps itself when laid flat");
         if (q.corners > rules_.max_corners)
             lines.push_back(name + std::to_string(q.corners) + " corners, more than " + std::to_string(rules_.max_corners));

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "formwork/segment/cut_pieces.hpp"
 #include "formwork/segment/dart.hpp"
 #include "formwork/segment/layout.hpp"
 

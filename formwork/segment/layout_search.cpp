@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "formwork/segment/cut_pieces.hpp"
 #include "formwork/segment/layout.hpp"
 
 namespace formwork {

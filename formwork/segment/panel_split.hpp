@@ -45,10 +45,6 @@ struct Split {
 std::vector<Split> best_splits(const PanelPatch& patch, const SurfaceField& field, const SplitRules& rules, int count,
                                std::vector<CandidateCurve>* all = nullptr);
 
-/// The pieces that a curve makes of a panel, each with its own topology; junctions are not marked.
-/// None when the curve crosses itself.
-std::vector<PanelPatch> split_pieces(const PanelPatch& patch, const Curve& curve);
-
 /// The shortest cut that brings a panel nearer to a disk whatever the field says: from border to border, along
 /// a loop that does not divide, or, on a closed surface, between two far points (a slit).
 std::optional<Split> plain_split(const PanelPatch& patch, const SurfaceField& field, const SplitRules& rules);
