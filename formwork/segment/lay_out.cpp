@@ -69,7 +69,9 @@ enum class Stage { search, polish, verdict };
 Layout layout_on(const LayoutJob& job, CutMesh cut, int max_panels, Stage stage) {
     SplitRules rules = job.rules;
     if (stage != Stage::search) rules.flattening = stage == Stage::polish ? polishing : thorough;
-    if (stage != Stage::verdict) {
+    if (stage == Stage::verdict) {
+        rules.believed = std::numeric_limits<double>::infinity();   // what is told of a panel is measured
+    } else {
         rules.max_distortion *= stage == Stage::search ? margin : polish_margin;
         rules.care = corner_care;
         rules.clearance = least_clearance * rules.min_width;

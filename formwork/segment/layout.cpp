@@ -167,7 +167,9 @@ std::vector<std::string> Layout::violations() {
         const PanelQuality& q = quality(p);
         const std::string name = "panel " + std::to_string(number[f] + 1) + ": ";
         if (!q.is_disk) lines.push_back(name + "is no disk");
-        if (q.is_disk && q.p95 > rules_.max_distortion)
+        if (q.has_failed)
+            lines.push_back(name + "cannot be laid flat without folds");
+        else if (q.is_disk && q.p95 > rules_.max_distortion)
             lines.push_back(name + excess_message(q.p95, rules_.max_distortion));
         if (q.overlaps) lines.push_back(name + "overlaps itself when laid flat");
         if (q.corners > rules_.max_corners)

@@ -9,7 +9,7 @@
 namespace formwork {
 namespace {
 
-constexpr double hopeless = 2.5;   // times the allowed stretch: such an estimate needs no flattening to be believed
+constexpr double folded = 2.5;   // times the allowed stretch, at least: what a panel counts that cannot be laid flat without folds
 constexpr double least_calibration = 0.4;
 constexpr double usual_calibration = 0.75;   // measured stretch over estimate, typical of panels of mixed shape
 constexpr int estimate_cells = 400;
@@ -52,7 +52,7 @@ PanelQuality look_at(const PanelPatch& patch, const SplitRules& rules, double ca
 }
 
 void measure_flat(const PanelPatch& patch, const SplitRules& rules, PanelQuality& q) {
-    if (!q.is_disk || q.is_flattened || q.p95 > hopeless * rules.max_distortion) return;
+    if (!q.is_disk || q.is_flattened || q.p95 > rules.believed * rules.max_distortion) return;
     q.is_flattened = true;
     const auto [known, is_new] =
         rules.memory->flat.try_emplace(PanelMemory::key_of(patch.surface) + static_cast<PanelMemory::Key>(rules.flattening.max_iterations));
@@ -61,7 +61,8 @@ void measure_flat(const PanelPatch& patch, const SplitRules& rules, PanelQuality
         rules.effort->spent += patch.surface.n_faces();
     }
     const PanelMemory::Flat& flat = known->second;
-    q.p95 = flat.failed ? std::max(q.estimate, hopeless * rules.max_distortion) : flat.p95;   // as bad as it gets
+    q.has_failed = flat.failed;
+    q.p95 = flat.failed ? std::max(q.estimate, folded * rules.max_distortion) : flat.p95;
     q.solidity = flat.solidity;
     q.overlaps = flat.overlaps || flat.gaps.inlet < rules.clearance;
     q.shape.sharpest = std::min(q.shape.sharpest, 2 * std::asin(flat.gaps.neck));

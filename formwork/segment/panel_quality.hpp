@@ -13,6 +13,7 @@ struct PanelQuality {
     double estimate = 0;         // of the stretch, before flattening
     bool is_flattened = false;   // p95 is measured, not derived from the estimate
     double p95 = 0;              // stretch of the flat pattern that 95 % of the area stays below
+    bool has_failed = false;     // it could not be laid flat without folds: p95 is a guess
     bool overlaps = false;       // its flat outline crosses itself: it cannot be cut from one sheet
     double solidity = 1;         // area of the flat piece over that of its convex hull: snakes and hooks waste cloth
     int corners = 0;
@@ -23,8 +24,8 @@ struct PanelQuality {
 /// Everything but the flat pattern; the stretch is the estimate times `calibration`.
 PanelQuality look_at(const PanelPatch& patch, const SplitRules& rules, double calibration);
 
-/// Replaces the derived stretch by that of a flattening, and looks whether the outline crosses itself; not for panels that
-/// are hopeless anyway.
+/// Replaces the derived stretch by that of a flattening, and looks whether the outline crosses itself; not for panels whose
+/// estimate is beyond what is believed.
 void measure_flat(const PanelPatch& patch, const SplitRules& rules, PanelQuality& q);
 
 /// Measured stretch over estimate; a typical value for panels that were not laid flat.

@@ -22,6 +22,7 @@ struct SplitRules {
     int trials = 24;                // seeds of candidate curves per panel
     double spacing = 0;             // m between the middles of different cuts; 0: a quarter of min_width
     FlattenParams flattening = FlattenParams::fast();   // by which panels are judged
+    double believed = 2.5;          // times max_distortion: a larger estimate needs no flattening to be believed
     std::shared_ptr<PanelMemory> memory = std::make_shared<PanelMemory>();   // of panels judged so far; shared by copies
     std::shared_ptr<Effort> effort = std::make_shared<Effort>();             // spent so far; shared by copies
     double calibration = 1;         // stretch of the panel laid flat over its estimate: corrects the pieces' estimates

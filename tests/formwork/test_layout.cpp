@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -6,6 +7,7 @@
 #include <set>
 
 #include "arcsim/base/error.hpp"
+#include "formwork/flatten/flatten.hpp"
 #include "formwork/segment/layout_json.hpp"
 #include "formwork/segment/panel_outline.hpp"
 #include "tests/formwork/layout_meshes.hpp"
@@ -174,6 +176,19 @@ TEST_CASE("bounds that cannot be met are named") {
     check_promises(s, r);
     REQUIRE_FALSE(r.violations.empty());
     CHECK(r.violations[0].find("max_distortion") != std::string::npos);
+    int told = 0;   // stretches are those of the flat patterns, however far beyond the bound
+    for (const std::string& line : r.violations) {
+        int panel = 0;
+        double percent = 0;
+        if (std::sscanf(line.c_str(), "panel %d: stretch of %lf", &panel, &percent) != 2) continue;
+        ++told;
+        std::vector<int> faces;
+        for (int f = 0; f < r.mesh.n_faces(); ++f)
+            if (r.panel[f] == panel - 1) faces.push_back(f);
+        const double p95 = flatten_disk(extract_patch(with_borders(r), faces).surface).stretch.p95;
+        CHECK(percent == Approx(100 * p95).epsilon(0.02));
+    }
+    CHECK(told > 0);
 }
 
 TEST_CASE("bad input to the segmentation is named") {
