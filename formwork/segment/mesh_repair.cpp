@@ -6,10 +6,11 @@
 #include <numbers>
 #include <set>
 
+#include "formwork/segment/degree.hpp"
+
 namespace formwork {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double thin = 20 * degree;            // faces with a smaller angle are mended where possible
 constexpr double folded = 0.90;                 // least cosine between faces that a flip may join
 constexpr double crease = 45 * degree;           // of the input: nodes on such an edge stay on it, or its faces lose area

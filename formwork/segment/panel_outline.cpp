@@ -4,10 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "formwork/segment/degree.hpp"
+
 namespace formwork {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double junction_turn = 40 * degree, corner_turn = 50 * degree;
 constexpr double arm_share = 1. / 16, arm_edges = 4, longest_arm = 1. / 8;   // of the loop; edges of mean length; of the loop
 

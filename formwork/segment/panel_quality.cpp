@@ -9,7 +9,7 @@
 namespace formwork {
 namespace {
 
-constexpr double folded = 2.5;   // times the allowed stretch, at least: what a panel counts that cannot be laid flat without folds
+constexpr double worth_of_folds = 2.5;   // times the allowed stretch, at least, is what a panel counts as that cannot be laid flat without folds
 constexpr double least_calibration = 0.4;
 constexpr double usual_calibration = 0.75;   // measured stretch over estimate, typical of panels of mixed shape
 constexpr int estimate_cells = 400;
@@ -62,7 +62,7 @@ void measure_flat(const PanelPatch& patch, const SplitRules& rules, PanelQuality
     }
     const PanelMemory::Flat& flat = known->second;
     q.has_failed = flat.failed;
-    q.p95 = flat.failed ? std::max(q.estimate, folded * rules.max_distortion) : flat.p95;
+    q.p95 = flat.failed ? std::max(q.estimate, worth_of_folds * rules.max_distortion) : flat.p95;
     q.solidity = flat.solidity;
     q.overlaps = flat.overlaps || flat.gaps.inlet < rules.clearance;
     q.shape.sharpest = std::min(q.shape.sharpest, 2 * std::asin(flat.gaps.neck));

@@ -7,12 +7,12 @@
 #include <set>
 
 #include "formwork/mesher/edge_collapse.hpp"
+#include "formwork/segment/degree.hpp"
 #include "formwork/segment/mesh_repair.hpp"
 
 namespace formwork {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double fold = 40 * degree;          // dihedral: such edges keep their course
 constexpr double straight = 12 * degree;      // turn of the rim or a fold that a collapse may level
 constexpr double least = 22 * degree;         // angle of a face after a collapse
