@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "formwork/segment/field_paths.hpp"
 #include "formwork/segment/surface_curve.hpp"
@@ -42,15 +43,21 @@ int tip_of(const PanelPatch& p, double reach) {
 std::vector<Curve> dart_curves(const PanelPatch& p, const SurfaceField& field, const SplitRules& rules) {
     const int tip = tip_of(p, rules.min_width);
     if (tip < 0) return {};
-    std::vector<int> ring, border;
-    for (int f : p.topology.node_faces[tip])
-        for (int v : p.surface.faces[f]) {
-            if (p.topology.is_boundary_node(v)) return {};
-            if (v != tip) ring.push_back(v);
-        }
+    std::set<std::pair<int, int>> across;   // edges of the tip's faces that do not meet in it
+    for (int f : p.topology.node_faces[tip]) {
+        const Triangle& t = p.surface.faces[f];
+        const int k = static_cast<int>(std::find(t.begin(), t.end(), tip) - t.begin());
+        const int a = t[(k + 1) % 3], b = t[(k + 2) % 3];
+        if (p.topology.is_boundary_node(a) || p.topology.is_boundary_node(b)) return {};
+        across.insert(std::minmax(a, b));
+    }
     const FieldGraph graph(p.surface, p.topology, field, rules.drift, 1);
-    for (int i = 0; i < graph.n_samples(); ++i)
+    std::vector<int> ring, border;   // the ring begins inside its edges: its nodes may all be singular, and no path leaves those
+    for (int i = 0; i < graph.n_samples(); ++i) {
+        const CurvePoint& q = graph.point(i);
         if (graph.is_border(i)) border.push_back(i);
+        if (!q.is_node() && across.count(std::minmax(q.a, q.b))) ring.push_back(i);
+    }
     auto path = plain_path(graph, ring, border);
     if (!path) return {};
     path->samples.insert(path->samples.begin(), tip);

@@ -14,8 +14,8 @@ using namespace layout_meshes;
 namespace {
 
 /// A cone of half opening angle `half`, m along its side 0.3: the cap's rings laid on it.
-Surface cone(double half) {
-    Surface s = disk_meshes::cap(24, 36, 1);
+Surface cone(double half, int sectors = 36) {
+    Surface s = disk_meshes::cap(24, sectors, 1);
     for (Vector3d& x : s.x) {
         const double side = 0.3 * std::acos(std::min(1., x.z())), a = std::atan2(x.y(), x.x());
         x = {side * std::sin(half) * std::cos(a), side * std::sin(half) * std::sin(a), -side * std::cos(half)};
@@ -48,6 +48,18 @@ TEST_CASE("a cone becomes one panel with a dart, and the dart counts no corners"
     const PanelPatch patch = extract_patch(cut, every_face(s));
     REQUIRE(patch.is_disk());
     CHECK(corner_nodes(patch).empty());
+}
+
+TEST_CASE("a cone takes its dart also where all vertices around its tip are singular") {
+    SegmentParams params;
+    params.symmetry = Symmetry::off;
+    params.max_panels = 1;
+    for (const auto& [half, sectors] : {std::pair{0.3, 30}, std::pair{0.4, 41}, std::pair{0.6, 36}}) {   // mending leaves three faces at some tips
+        const Surface s = cone(half, sectors);
+        const Segmentation r = segment(s, along(s, {0.1, 0, 1}, 0.5), params);
+        CHECK(r.violations.empty());
+        CHECK(r.n_panels == 1);
+    }
 }
 
 TEST_CASE("folds that part the surface are tried as seams") {
