@@ -1,6 +1,7 @@
 #include "arcsim/mesh/topology.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -51,13 +52,10 @@ std::vector<EdgeGroup> group_half_edges(const Surface& s) {
 
 /// The faces of `node` as one counter-clockwise fan; shorter than `around` when there are several fans.
 std::vector<int> order_fan(const Surface& s, const Topology& t, int node, std::span<const int> around) {
-    const auto corner_of = [&](int f) {
-        return static_cast<int>(std::find(s.faces[f].begin(), s.faces[f].end(), node) - s.faces[f].begin());
-    };
     // Going counter-clockwise leaves a face over the edge opposite its next corner.
     int start = around.front();
     for (std::size_t i = 0; i < around.size(); ++i) {   // walk clockwise to the boundary, if there is one
-        const int back = t.neighbour(start, (corner_of(start) + 2) % 3);
+        const int back = t.neighbour(start, (corner_of(s.faces[start], node) + 2) % 3);
         if (back < 0) break;
         start = back;
     }
@@ -65,7 +63,7 @@ std::vector<int> order_fan(const Surface& s, const Topology& t, int node, std::s
     fan.reserve(around.size());
     for (int f = start; f >= 0 && fan.size() < around.size();) {
         fan.push_back(f);
-        f = t.neighbour(f, (corner_of(f) + 1) % 3);
+        f = t.neighbour(f, (corner_of(s.faces[f], node) + 1) % 3);
         if (f == start) break;
     }
     return fan;
@@ -136,6 +134,11 @@ void find_boundary_loops(Topology& t) {
 }
 
 }  // namespace
+
+double bend_angle(const Surface& s, const Edge& e) {
+    const Vector3d a = face_normal(s, e.face[0]), b = face_normal(s, e.face[1]);
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+}
 
 int Topology::euler_characteristic() const {
     const auto used = std::count_if(component.begin(), component.end(), [](int c) { return c >= 0; });

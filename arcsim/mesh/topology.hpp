@@ -18,6 +18,12 @@ struct Edge {
     bool is_boundary() const { return face[1] < 0; }
 };
 
+/// The corner at which a face has one of its nodes.
+inline int corner_of(const Triangle& face, int node) { return face[0] == node ? 0 : face[1] == node ? 1 : 2; }
+
+/// Angle by which the surface bends at an inner edge, rad: 0 where it is flat, either way positive.
+double bend_angle(const Surface& s, const Edge& e);
+
 /// Who touches whom on a manifold, consistently oriented surface. Edges are numbered in the order of
 /// their first face, so the numbering depends on the faces' order alone.
 struct Topology {

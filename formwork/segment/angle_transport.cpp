@@ -52,8 +52,7 @@ std::vector<FanStep> fan_steps(const Surface& s, const Topology& t, int node) {
     steps.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
         const arcsim::Triangle& f = s.faces[fan[i]];
-        const auto corner = std::find(f.begin(), f.end(), node) - f.begin();
-        const int e = t.face_edges[fan[i]][(corner + 1) % 3];   // counter-clockwise: over the edge opposite the next corner
+        const int e = t.face_edges[fan[i]][(arcsim::corner_of(f, node) + 1) % 3];   // counter-clockwise: over the edge opposite the next corner
         steps.push_back({e, t.edges[e].face[0] == fan[i] ? 1 : -1});
     }
     return steps;

@@ -15,7 +15,7 @@ using Edges = std::set<std::pair<int, int>>;
 Edges bent_edges(const Surface& s, const Topology& t, double angle) {
     Edges edges;
     for (const arcsim::Edge& e : t.edges)
-        if (!e.is_boundary() && arcsim::face_normal(s, e.face[0]).dot(arcsim::face_normal(s, e.face[1])) < std::cos(angle))
+        if (!e.is_boundary() && arcsim::bend_angle(s, e) > angle)
             edges.insert(std::minmax(e.node[0], e.node[1]));
     return edges;
 }

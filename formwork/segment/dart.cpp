@@ -46,7 +46,7 @@ std::vector<Curve> dart_curves(const PanelPatch& p, const SurfaceField& field, c
     std::set<std::pair<int, int>> across;   // edges of the tip's faces that do not meet in it
     for (int f : p.topology.node_faces[tip]) {
         const Triangle& t = p.surface.faces[f];
-        const int k = static_cast<int>(std::find(t.begin(), t.end(), tip) - t.begin());
+        const int k = arcsim::corner_of(t, tip);
         const int a = t[(k + 1) % 3], b = t[(k + 2) % 3];
         if (p.topology.is_boundary_node(a) || p.topology.is_boundary_node(b)) return {};
         across.insert(std::minmax(a, b));

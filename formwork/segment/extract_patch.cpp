@@ -7,10 +7,6 @@
 namespace formwork {
 namespace {
 
-int place_in(const arcsim::Triangle& t, int node) {
-    return t[0] == node ? 0 : t[1] == node ? 1 : 2;
-}
-
 /// Builds the patch and its topology; local faces are numbered as they are given, nodes and edges as faces first name them.
 class Extraction {
 public:
@@ -53,12 +49,12 @@ private:
                 break;
             }
             at = next;
-            c = place_in(s_.faces[p_.face[at]], v);
+            c = arcsim::corner_of(s_.faces[p_.face[at]], v);
             if (at == i) break;
         }
         std::vector<int> fan;
         for (int at = start; at >= 0;) {
-            const int c = place_in(s_.faces[p_.face[at]], v);
+            const int c = arcsim::corner_of(s_.faces[p_.face[at]], v);
             p_.surface.faces[at][c] = id;
             fan.push_back(at);
             at = inner_neighbour(p_.face[at], (c + 2) % 3);
@@ -80,7 +76,7 @@ private:
                 t.edges.push_back({{here[k], here[(k + 1) % 3]}, {i, -1}, {corner, -1}});
                 t.face_edges[i][corner] = e;
                 if (other < 0) continue;
-                const int opposite = (place_in(p_.surface.faces[other], here[k]) + 1) % 3;
+                const int opposite = (arcsim::corner_of(p_.surface.faces[other], here[k]) + 1) % 3;
                 t.edges[e].face[1] = other;
                 t.edges[e].corner[1] = opposite;
                 t.face_edges[other][opposite] = e;
@@ -100,7 +96,7 @@ private:
             for (int turn = 0; turn < 2; ++turn) {   // counter-clockwise, then clockwise if a rim stopped us
                 int steps = 0;
                 do {
-                    const int k = place_in(s_.faces[f], p_.node[v]), side = turn == 0 ? (k + 2) % 3 : k;
+                    const int k = arcsim::corner_of(s_.faces[f], p_.node[v]), side = turn == 0 ? (k + 2) % 3 : k;
                     const int next = cut_.across(f, side);
                     if (cut_.is_seam_at(f, side)) ++seams, given += cut_.is_given_at(f, side);
                     if (next < 0) ++rims;

@@ -8,6 +8,7 @@
 
 #include "arcsim/base/error.hpp"
 #include "formwork/segment/angle_transport.hpp"
+#include "formwork/segment/degree.hpp"
 #include "formwork/segment/nearest_surface.hpp"
 
 namespace formwork {
@@ -23,12 +24,6 @@ struct Wishes {
         total[f] += weight;
     }
 };
-
-/// Angle by which the surface bends at an inner edge, rad.
-double bend(const Surface& s, const arcsim::Edge& e) {
-    const auto a = arcsim::face_normal(s, e.face[0]), b = arcsim::face_normal(s, e.face[1]);
-    return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 void add_stroke(const Surface& s, const NearestSurface& near, const Stroke& stroke, int number, Wishes& wishes) {
     const double step = arcsim::mean_edge_length(s) / 4, far = 0.05 * arcsim::bounding_diagonal(s);
@@ -52,9 +47,9 @@ void add_stroke(const Surface& s, const NearestSurface& near, const Stroke& stro
 std::vector<HardDirection> hard_directions(const Surface& s, const Topology& t, const ConstraintParams& params,
                                            const std::vector<Stroke>& strokes) {
     Wishes wishes(s.n_faces());
-    const double crease = params.crease_angle_deg * std::numbers::pi / 180;
+    const double crease = params.crease_angle_deg * degree;
     for (const arcsim::Edge& e : t.edges) {
-        const bool follow = e.is_boundary() ? params.align_rims : crease > 0 && bend(s, e) > crease;
+        const bool follow = e.is_boundary() ? params.align_rims : crease > 0 && arcsim::bend_angle(s, e) > crease;
         for (int side = 0; follow && side < 2; ++side)
             if (e.face[side] >= 0)
                 wishes.add(e.face[side], edge_angle(s, e.face[side], e.corner[side]), (s.x[e.node[0]] - s.x[e.node[1]]).norm());
@@ -63,7 +58,7 @@ std::vector<HardDirection> hard_directions(const Surface& s, const Topology& t, 
         const NearestSurface near(s, t);
         for (std::size_t i = 0; i < strokes.size(); ++i) add_stroke(s, near, strokes[i], static_cast<int>(i), wishes);
     }
-    const double agree = std::cos(4 * 10 * std::numbers::pi / 180);   // two wishes 20 degrees apart
+    const double agree = std::cos(4 * 10 * degree);   // two wishes 20 degrees apart
     std::vector<HardDirection> hard;
     for (int f = 0; f < s.n_faces(); ++f)
         if (wishes.total[f] > 0 && std::abs(wishes.sum[f]) >= agree * wishes.total[f])

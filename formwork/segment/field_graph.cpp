@@ -2,21 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "formwork/segment/angle_transport.hpp"
+#include "formwork/segment/degree.hpp"
 
 namespace formwork {
 namespace {
 
-constexpr double least_landing = 30 * std::numbers::pi / 180;   // between a curve's end and the border: no thin tips
+constexpr double least_landing = 30 * degree;   // between a curve's end and the border: no thin tips
 
 int modulo4(int k) {
     return ((k % 4) + 4) % 4;
-}
-
-int corner_of(const arcsim::Triangle& t, int v) {
-    return t[0] == v ? 0 : t[1] == v ? 1 : 2;
 }
 
 /// atan(t) for |t| <= 1, within 1e-5 rad [Abramowitz and Stegun 1964, 4.4.47]: costs are kept in single precision, and this is
@@ -49,7 +45,7 @@ void FieldGraph::match(const Surface& s, const Topology& t, const SurfaceField& 
         int layer = 0;
         double angle = 0;
         for (std::size_t i = 0; i < fan.size(); ++i) {
-            const int f = fan[i], k = corner_of(s.faces[f], v);
+            const int f = fan[i], k = arcsim::corner_of(s.faces[f], v);
             vertex_layer_[f][k] = layer;
             fan_angle_[f][k] = angle;
             angle += corner_angle(s, f, k);
@@ -179,7 +175,7 @@ void FieldGraph::find_ports(const Surface& s, const SurfaceField& field, std::ve
     for (std::size_t i = 0, end; i < leaving.size(); i = end) {
         for (end = i; end < leaving.size() && key(leaving[end]) == key(leaving[i]);) ++end;
         const auto [v, f, layer, first] = leaving[i];
-        const int k = corner_of(s.faces[f], v);   // an arm counts in the face whose sector it lies in
+        const int k = arcsim::corner_of(s.faces[f], v);   // an arm counts in the face whose sector it lies in
         const Vector3d to = s.x[s.faces[f][(k + 1) % 3]] - s.x[v];
         const double turn = field.theta[f] + layer * quarter_turn - arcsim::face_frame(s, f).angle(to);
         if (turn - 4 * quarter_turn * std::floor(turn / (4 * quarter_turn)) >= corner_angle(s, f, k)) continue;

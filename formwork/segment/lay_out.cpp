@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <optional>
 
 #include "arcsim/base/error.hpp"
 #include "formwork/segment/crease_seams.hpp"
+#include "formwork/segment/degree.hpp"
 #include "formwork/segment/mesh_repair.hpp"
 #include "formwork/segment/mirror_layout.hpp"
 #include "formwork/segment/seam_chains.hpp"
@@ -36,6 +36,7 @@ struct Base {
     MeshOnInput mesh;
     Topology topology;
     bool is_coarse = false;
+    bool has_creases = false;   // that part the surface: they are tried as seams
     double work = 1;   // share of all work that one layout on it may take
 };
 
@@ -45,19 +46,24 @@ Base whole_mesh(const LayoutJob& job) {
     return {{job.s, CutMesh(job.s).source(), std::move(same)}, job.topology, false};
 }
 
-double crease_angle(const LayoutJob& job) { return job.params.constraints.crease_angle_deg * std::numbers::pi / 180; }
+double crease_angle(const LayoutJob& job) { return job.params.constraints.crease_angle_deg * degree; }
 
-/// Whether some creases of the surface part it, so that they are to be tried as seams.
-bool follows_creases(const LayoutJob& job) {
+bool has_creases(const LayoutJob& job) {
+    if (crease_angle(job) <= 0) return false;
     CutMesh cut(job.s);
-    return crease_angle(job) > 0 && mark_crease_seams(cut, crease_angle(job), job.params.min_width);
+    return mark_crease_seams(cut, crease_angle(job), job.params.min_width);
 }
 
 /// Strokes and creases are followed edge by edge: they need the mesh as it is.
 Base base_mesh(const LayoutJob& job) {
     const double per_panel = faces_per_panel * std::clamp(job.params.layout_effort, 1., 4.);   // with more work to do, finer panels pay
     const int target = std::max(enough_faces, static_cast<int>(per_panel * job.params.max_panels));
-    if (2 * job.s.n_faces() < 3 * target || !job.strokes.empty() || follows_creases(job)) return whole_mesh(job);
+    const bool creases = has_creases(job);
+    if (2 * job.s.n_faces() < 3 * target || !job.strokes.empty() || creases) {
+        Base base = whole_mesh(job);
+        base.has_creases = creases;
+        return base;
+    }
     SearchMesh coarse = search_mesh(job.s, job.topology, target);
     Topology topology = arcsim::build_topology(coarse.surface, "segment");
     return {{std::move(coarse.surface), std::move(coarse.source), std::move(coarse.source_face)}, std::move(topology), true};
@@ -129,7 +135,7 @@ struct Found {
 Found free_layout(const LayoutJob& whole_job, const Base& base) {
     const LayoutJob job = with_effort(whole_job, base.work);
     CutMesh cut = uncut(job, base.mesh);
-    if (follows_creases(job)) mark_crease_seams(cut, crease_angle(job), job.params.min_width);
+    if (base.has_creases) mark_crease_seams(cut, crease_angle(job), job.params.min_width);
     Layout layout = layout_on(job, std::move(cut), job.params.max_panels, Stage::search);
     for (std::size_t i = 0; i < job.strokes.size(); ++i)
         if (!layout.add_curve(stroke_curve(layout, job.strokes[i], static_cast<int>(i)), true))
@@ -178,9 +184,9 @@ std::optional<Found> mirrored_layout(const LayoutJob& whole_job, const Base& bas
 }
 
 /// Two planes at right angles, when there are such, and the best plane alone.
-std::vector<std::vector<MirrorPlane>> plane_sets(const LayoutJob& job) {
+std::vector<std::vector<MirrorPlane>> plane_sets(const LayoutJob& job, const Base& base) {
     std::vector<std::vector<MirrorPlane>> sets;
-    if (job.params.symmetry != Symmetry::detect || !job.strokes.empty() || follows_creases(job) || job.params.max_panels < 2) return sets;
+    if (job.params.symmetry != Symmetry::detect || !job.strokes.empty() || base.has_creases || job.params.max_panels < 2) return sets;
     std::vector<MirrorPlane> planes = find_mirror_planes(job.s, job.topology);
     const double close = 0.25 * arcsim::mean_edge_length(job.s);
     std::erase_if(planes, [&](const MirrorPlane& p) { return p.deviation >= close; });
@@ -223,7 +229,7 @@ Found best_layout(const LayoutJob& job, const Base& base) {
         best.emplace(Found{std::move(layout), std::move(found->candidates)});
         return true;
     };
-    for (const auto& planes : plane_sets(job)) {   // after a first one that keeps the bounds, another must win at first look
+    for (const auto& planes : plane_sets(job, base)) {   // after a first one that keeps the bounds, another must win at first look
         const bool is_second = best && best->layout.keeps_bounds();
         if (offer(planes, is_second ? Rework::out_of_bounds : Rework::all) && is_second) offer(planes, Rework::all);
     }
@@ -258,7 +264,7 @@ Segmentation hand_over(const LayoutJob& job, const CutMesh& cut, std::vector<Can
 
 SplitRules split_rules(const SegmentParams& params) {
     SplitRules rules;
-    rules.drift = {params.drift_penalty, params.max_angle_deg * std::numbers::pi / 180};
+    rules.drift = {params.drift_penalty, params.max_angle_deg * degree};
     rules.min_width = params.min_width;
     rules.max_distortion = params.max_distortion;
     return rules;

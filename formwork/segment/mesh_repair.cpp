@@ -80,11 +80,11 @@ private:
 
     /// Nodes on creases of the input: those at its nodes are held, the others keep to their edge.
     void find_creases() {
-        std::map<std::pair<int, int>, char> bent;
+        std::set<std::pair<int, int>> bent;
         std::vector<char> at_crease(input_.x.size(), 0);
         for (const arcsim::Edge& e : topology_.edges) {
-            if (e.is_boundary() || arcsim::face_normal(input_, e.face[0]).dot(arcsim::face_normal(input_, e.face[1])) > std::cos(crease)) continue;
-            bent[std::minmax(e.node[0], e.node[1])] = 1;
+            if (e.is_boundary() || arcsim::bend_angle(input_, e) < crease) continue;
+            bent.insert(std::minmax(e.node[0], e.node[1]));
             for (int v : e.node) at_crease[v] = 1;
         }
         rail_.assign(s_.x.size(), {-1, -1});

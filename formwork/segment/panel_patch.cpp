@@ -9,10 +9,6 @@
 namespace formwork {
 namespace {
 
-int corner_of(const arcsim::Triangle& t, int node) {
-    return t[0] == node ? 0 : t[1] == node ? 1 : 2;
-}
-
 double corner_angle_at(const Surface& s, const arcsim::Triangle& t, int k) {
     const Vector3d a = s.x[t[(k + 1) % 3]] - s.x[t[k]], b = s.x[t[(k + 2) % 3]] - s.x[t[k]];
     return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -59,7 +55,7 @@ double PanelPatch::border_length() const {
 double angle_sum(const PanelPatch& p, int node) {
     double angle = 0;
     for (int f : p.topology.node_faces[node])
-        angle += corner_angle_at(p.surface, p.surface.faces[f], corner_of(p.surface.faces[f], node));
+        angle += corner_angle_at(p.surface, p.surface.faces[f], arcsim::corner_of(p.surface.faces[f], node));
     return angle;
 }
 

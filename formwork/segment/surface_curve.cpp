@@ -7,10 +7,6 @@
 namespace formwork {
 namespace {
 
-int corner_of(const arcsim::Triangle& t, int v) {
-    return t[0] == v ? 0 : t[1] == v ? 1 : 2;
-}
-
 /// The faces that hold both points.
 std::vector<int> shared_faces(const Topology& t, const CurvePoint& p, int p_edge, const CurvePoint& q, int q_edge) {
     const auto faces = [&](const CurvePoint& c, int e) {
@@ -37,7 +33,7 @@ std::vector<int> turn_around(const Surface& s, const Topology& t, int v, int f, 
     const auto walk = [&](int side) {   // 1: counter-clockwise, 2: clockwise
         std::vector<int> faces{f};
         while (faces.back() != g) {
-            const int next = t.neighbour(faces.back(), (corner_of(s.faces[faces.back()], v) + side) % 3);
+            const int next = t.neighbour(faces.back(), (arcsim::corner_of(s.faces[faces.back()], v) + side) % 3);
             if (next < 0 || next == f) return std::vector<int>{};
             faces.push_back(next);
         }

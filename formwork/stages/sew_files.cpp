@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "arcsim/base/files.hpp"
+#include "formwork/panels/panel_set.hpp"
 #include "formwork/report/chart.hpp"
 #include "formwork/stages/csv.hpp"
 
@@ -60,10 +61,10 @@ std::string panel_table(const SewResult& r, const Segmentation& s) {
         if (r.equilibrium.strain[f].state == FaceState::taut) p.taut += area;
         shear_of_all += shear;
     }
-    CsvText text("panel,area_m2,mean_abs_shear,fabric_mean_abs_shear,taut_share,share_of_shear");
+    CsvText text("panel,name,area_m2,mean_abs_shear,fabric_mean_abs_shear,taut_share,share_of_shear");
     for (int i = 0; i < s.n_panels; ++i) {
         const Sum& p = panels[i];
-        text.add(i).add(p.area).add(p.shear / p.area).add(p.fabric / p.area).add(p.taut / p.area);
+        text.add(i).add(panel_name(i)).add(p.area).add(p.shear / p.area).add(p.fabric / p.area).add(p.taut / p.area);
         text.add(shear_of_all > 0 ? p.shear / shear_of_all : 0).end_row();
     }
     return text.text();
